@@ -27,8 +27,8 @@ pub struct Eigenpair {
 }
 
 /// Returns all eigenvalues of a square matrix with finite entries, each repeated by its
-/// multiplicity. They are sorted by real parts, the largest first, then by imaginary parts. Returns
-/// `None` if the iteration does not converge, or if an entry is not finite.
+/// multiplicity. The eigenvalues are sorted by real parts, the largest first, then by imaginary
+/// parts. Returns `None` if the iteration does not converge, or if an entry is not finite.
 ///
 /// ```
 /// use pfaff_linalg::{Matrix, eigenpairs};

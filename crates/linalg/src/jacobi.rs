@@ -1,6 +1,6 @@
-//! Singular vectors of small matrices by one-sided Jacobi rotations. They are used for blocks
-//! between two null spaces, which have a few rows and columns. The results are not used as evidence
-//! for ranks; `singular_values` computes this evidence.
+//! Singular vectors of small matrices by one-sided Jacobi rotations. The rotations are used for
+//! blocks between two null spaces, which have a few rows and columns. The results are not used as
+//! evidence for ranks; `singular_values` computes this evidence.
 //!
 //! Source: M. R. Hestenes, Inversion of matrices by biorthogonalization and related results, J.
 //! SIAM 6 (1958) 51–90.
@@ -75,7 +75,7 @@ pub struct SymmetricEigen {
 }
 
 /// Returns eigenvalues and eigenvectors of a small symmetric matrix A of finite entries, from the
-/// singular values of `A + ‖A‖·I`. Their errors are a few roundings of ‖A‖.
+/// singular values of `A + ‖A‖·I`. The errors of the eigenvalues are a few rounding errors of ‖A‖.
 ///
 /// ```
 /// use pfaff_linalg::{Matrix, symmetric_eigen};
@@ -168,8 +168,8 @@ mod tests {
         assert!((svd.sigma[1] / (1e-12 * 2f64.sqrt()) - 1.0).abs() < 1e-14);
     }
 
-    /// For AᵀA = [1 c; c 1 + c²], σ = √(1 + c²/4) ± c/2. The columns are orthogonal to 256
-    /// roundings.
+    /// For AᵀA = [1 c; c 1 + c²], σ = √(1 + c²/4) ± c/2. The columns are orthogonal to 256 rounding
+    /// errors.
     #[test]
     fn nearly_orthogonal_columns_are_turned_too() {
         let c = 256.0 * f64::EPSILON;

@@ -1,7 +1,7 @@
 //! Table of limits: all values in this crate that its authors chose. Each comment states the
-//! meaning, the unit, what breaks if the value is wrong (if it is too small, or too large), and the
-//! test that fails then. `none, work only` means that only time or memory would change; `none`
-//! means that there is no test yet. The test file `tests/all/limits.rs` reads this table.
+//! meaning, the unit, the effects of a value that is too small or too large, and the test that
+//! fails then. `none, work only` means that only time or memory would change; `none` means that
+//! there is no test yet. The test file `tests/all/limits.rs` reads this table.
 
 // Singular values and scaling.
 
@@ -17,9 +17,9 @@ pub(crate) const EQUILIBRATION_SWEEPS: usize = 12;
 /// `zeros_on_the_diagonal_cut_the_matrix`.
 pub(crate) const JACOBI_SWEEPS: usize = 40;
 
-/// Columns are orthogonal if the cosine of their angle is below this limit of a few roundings.
-/// Unit: 1. Too small: rotations by rounding take time. Too large: singular values lose digits.
-/// Test: `nearly_orthogonal_columns_are_turned_too`.
+/// Columns are orthogonal if the cosine of their angle is below this limit of a few rounding
+/// errors. Unit: 1. Too small: rotations by rounding take time. Too large: singular values lose
+/// digits. Test: `nearly_orthogonal_columns_are_turned_too`.
 pub(crate) const ORTHOGONAL: f64 = 4.0 * f64::EPSILON;
 
 /// Squared rows below this limit, relative to a largest entry of one, count as zero. The limit
@@ -80,14 +80,14 @@ pub(crate) const SQUARE_MIN: f64 = 1e-140;
 // Equations with independent rows, solved in the null space of the rows.
 
 /// Masses count as graded above this spread, see [`mass_spread`](crate::mass_spread). Below it,
-/// plain solutions keep about ten digits, and normally twelve. Unit: heaviest by lightest mass. Too
-/// small: refinement takes time. Too large: digits are lost. Test:
+/// plain solutions keep about ten digits, and normally twelve. Unit: ratio of the heaviest to the
+/// lightest mass. Too small: refinement takes time. Too large: digits are lost. Test:
 /// `refinement_is_wanted_where_digits_are_lost`.
 pub const GRADED_MASSES: f64 = 1e6;
 
-/// If some masses are zero, the other masses count as graded above this spread. A massless
-/// coordinate has no mass of its own in NᵀMN that would limit the effect of cancellation. Below
-/// this spread, pivots by mass would only be smaller. Unit: heaviest by lightest mass that is not
+/// If some masses are zero, the other masses count as graded above this spread. In NᵀMN, a massless
+/// coordinate has no mass that would limit the effect of cancellation. Below this spread, pivots by
+/// mass would only be smaller. Unit: ratio of the heaviest mass to the lightest mass that is not
 /// zero. Too small: pivots are smaller. Too large: digits are lost. Test:
 /// `masses_are_graded_from_their_spread_on`.
 pub(crate) const GRADED_BESIDE_MASSLESS: f64 = 1e3;
@@ -157,7 +157,7 @@ pub(crate) const REFINEMENT_ROUNDS: usize = 8;
 
 /// Expected relative change of the next round of refinement below which the iteration ends. Below
 /// the rounding of an `f64`, a further round has no effect. Unit: share of each unknown. Too small:
-/// rounds have no effect. Too large: the last bit is wrong. Test:
+/// additional rounds have no effect. Too large: the last bit is wrong. Test:
 /// `whole_numbers_come_back_exactly`.
 pub(crate) const SETTLED: f64 = 0.0625 * f64::EPSILON;
 
@@ -182,13 +182,13 @@ pub(crate) const SCHUR_NOISE: f64 = 1e-7;
 pub(crate) const SCHUR_WHOLE: f64 = 0.4;
 
 /// Rows with a larger residual are corrected. Unit: share of the terms of the row. Too small:
-/// rounding is corrected. Too large: digits are lost. Test:
+/// rounding errors are corrected. Too large: digits are lost. Test:
 /// `random_mechanisms_move_as_with_the_dense_solver`.
 pub(crate) const SCHUR_ENOUGH: f64 = 1e-14;
 
 /// The residual of a row after a correction is rounding if it is at most this share of all summed
 /// terms, including multipliers that balance each other. Unit: share of all terms of the row. Too
-/// small: rounding is corrected. Too large: digits are lost. Test:
+/// small: rounding errors are corrected. Too large: digits are lost. Test:
 /// `a_correction_leaves_rounding_of_all_terms`.
 pub(crate) const SCHUR_ROUNDING: f64 = f64::EPSILON;
 
@@ -203,6 +203,6 @@ pub(crate) const SCHUR_POOR: f64 = 1e-9;
 pub(crate) const SCHUR_CORRECTIONS: usize = 4;
 
 /// A correction must reduce the residual to less than this share; otherwise the iteration ends.
-/// Unit: share of the miss before. Too small: slow corrections are abandoned. Too large: the
+/// Unit: share of the previous residual. Too small: slow corrections are abandoned. Too large: the
 /// solution takes longer. Test: `corrections_go_on_while_they_halve_what_is_left`.
 pub(crate) const SCHUR_PROGRESS: f64 = 0.5;

@@ -5,7 +5,7 @@
 //! | C  0  | | λ | = | γ |     M = diag(m) ≥ 0 (n), C of full row rank (r×n)
 //! ```
 //!
-//! Sparse LU of the tall Cᵀ gives a null space basis N of C. Its pivots are large entries of a row
+//! Sparse LU of the tall Cᵀ gives a null space basis N of C. The pivots are large entries of a row
 //! that cause little work for the other rows. The reduced mass `Nᵀ·M·N` (order k = n − r) is
 //! factored by Cholesky (as L·D·Lᵀ), and λ is computed with the same LU. M is never inverted, so
 //! masses may be zero as long as M is positive definite on ker C. Work and storage grow with the

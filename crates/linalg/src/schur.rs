@@ -68,7 +68,7 @@ struct LdlFactors {
     diagonal: Vec<Lane>,
     /// Usual independent share of each row, in units of the smallest one; 1 if it is not known.
     usual: Vec<Lane>,
-    /// Reference values for the pivots: diagonal · usual.
+    /// Reference values for the pivots: the product of `diagonal` and `usual`.
     compared: Vec<Lane>,
     /// Masses m (NaN if they are not known) and their inverses, n values each.
     mass: Vec<f64>,

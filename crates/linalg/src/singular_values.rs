@@ -15,8 +15,8 @@ use crate::{Matrix, PivotedQr, kernels, powers, qr};
 
 mod diagonal;
 
-/// Returns all `min(m, n)` singular values of `a`, largest first. They are accurate to a small
-/// multiple of `eps·σ₁`.
+/// Returns all `min(m, n)` singular values of `a`, largest first. The singular values are accurate
+/// to a small multiple of `eps·σ₁`.
 ///
 /// Entries must be finite; otherwise the values are meaningless (but their number is the same).
 ///

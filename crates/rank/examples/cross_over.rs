@@ -2,10 +2,7 @@
 //! mechanisms: from how many rows and free motions on is the Schur complement faster?
 //!
 //! `cargo run --release -p pfaff-rank --example cross_over`
-#![allow(
-    clippy::print_stdout,
-    reason = "the output is what this example is for"
-)]
+#![allow(clippy::print_stdout, reason = "this example exists for its output")]
 
 use std::time::Instant;
 

@@ -1,10 +1,7 @@
 //! Rank, kept rows and unique rows of large sparse mechanisms whose answers are known, and how the
 //! time grows: `cargo run --release -p pfaff-rank --example large_rank`. With a directory as
-//! argument the matrices are also written there, for `crates/bench/spqr`.
-#![allow(
-    clippy::print_stdout,
-    reason = "the output is what this example is for"
-)]
+//! argument the matrices are also written to this directory, for `crates/bench/spqr`.
+#![allow(clippy::print_stdout, reason = "this example exists for its output")]
 
 use std::io::Write;
 use std::path::{Path, PathBuf};

@@ -1,5 +1,5 @@
-//! Circuits: minimal sets of rows that depend on each other. They show which smallest sets of rows
-//! cause a redundancy.
+//! Circuits: minimal sets of rows that depend on each other. Circuits show which smallest sets of
+//! rows cause a redundancy.
 //!
 //! Redundancy is a property of circuits, not of single rows. The p fundamental circuits (one for
 //! each dropped row) depend on which rows were dropped and may be long. Every circuit is the
@@ -44,12 +44,12 @@ pub fn circuits(decision: &RankDecision) -> Vec<Circuit> {
 
 /// Returns p independent circuits that are as short as possible: the shortest of all circuits, then
 /// the shortest one that is independent of it, and so on. This choice minimises the total length.
-/// The circuits are sorted by length, then by rows. They do not depend on the dropped rows.
+/// The circuits are sorted by length, then by rows. The circuits do not depend on the dropped rows.
 ///
 /// A component (a set of coupled rows) of redundancy p_c has at most as many circuits as subsets of
 /// p_c − 1 of its rows. If there are more than 20 000 of these, or if rounding hides which rows
 /// belong to a circuit or whether a row belongs to any, the fundamental circuits of the component
-/// are returned. These are also minimal and independent, but may be longer.
+/// are returned. Fundamental circuits are also minimal and independent, but may be longer.
 ///
 /// ```
 /// use linalg::Matrix;

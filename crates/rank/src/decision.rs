@@ -1,12 +1,12 @@
 //! The rank decision and its tolerance. Only this module decides ranks.
 //!
 //! A rank is decided once for each regime of a motion, at a configuration that is refined onto the
-//! constraints. It is never decided inside a right-hand side. At a distance δ from the manifold, a
-//! singular value that is exactly zero on the manifold is about δ. The decision contains its
-//! evidence (all singular values of the equilibrated matrix). It may be `Undecided`, and then
-//! contains both possible ranks. This module does not determine the effect of redundancy on
-//! reactions; `null_space` computes the dependencies. Masses are not used as weights, because they
-//! create false small singular values.
+//! constraints. The rank is never decided inside a right-hand side. At a distance δ from the
+//! manifold, a singular value that is exactly zero on the manifold is about δ. The decision
+//! contains its evidence (all singular values of the equilibrated matrix). A decision may be
+//! `Undecided`, and then contains both possible ranks. This module does not determine the effect of
+//! redundancy on reactions; `null_space` computes the dependencies. Masses are not used as weights,
+//! because they create false small singular values.
 //!
 //! The rule, with singular values σ of `D_r·C·D_c` (maxima of rows and columns near one):
 //! `τ = 10·max(eps·√(m·n), uncertainty)`, rank r is decided iff `σ_{r+1} ≤ τ` and
@@ -66,8 +66,8 @@ pub fn decide_of_rank<'a>(
 }
 
 /// Returns rows that appear independent by the pivots of one factorisation, ascending. A Newton
-/// iteration may be tried with them; its convergence shows whether they are independent. This is
-/// not a rank decision.
+/// iteration may be tried with them; its convergence shows whether they are independent. This test
+/// is not a rank decision.
 ///
 /// ```
 /// use linalg::Matrix;

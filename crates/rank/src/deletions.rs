@@ -32,7 +32,9 @@ pub enum DeletionError {
     /// Whether some rows may be deleted together depends on a value that is neither certainly zero
     /// nor certainly nonzero.
     #[error(
-        "whether rows can be deleted together depends on a coefficient {value:.1e}, and coefficients are accurate only to {noise:.1e}: use more accurate data or a smaller tolerance"
+        "whether rows can be deleted together depends on a coefficient of {}, and coefficients are accurate only to {}: use more accurate data or a smaller tolerance",
+        rough(*value),
+        rough(*noise)
     )]
     Unclear {
         /// The value.
@@ -74,6 +76,16 @@ pub enum DeletionError {
         /// The entry.
         value: f64,
     },
+}
+
+/// Formats a number with two significant digits, such as `0.1` or `2.3e-9`.
+fn rough(x: f64) -> String {
+    let rounded = format!("{x:.1e}").parse().unwrap_or(x);
+    if (1e-4..1e4).contains(&rounded.abs()) {
+        rounded.to_string()
+    } else {
+        format!("{rounded:e}")
+    }
 }
 
 impl From<Unclear> for DeletionError {

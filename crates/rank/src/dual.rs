@@ -67,8 +67,8 @@ pub(crate) struct Dual {
 }
 
 impl Dual {
-    /// Creates the vectors of `rows` (ascending). Their coordinates belong to the dropped rows
-    /// among them, so `rows` must be a union of components.
+    /// Creates the vectors of `rows` (ascending). The coordinates of the vectors belong to the
+    /// dropped rows in `rows`, so `rows` must be a union of components.
     pub(crate) fn new(decision: &RankDecision, support: &Support, rows: &[usize]) -> Self {
         let inside = |row: &usize| rows.binary_search(row).is_ok();
         let coordinates: Vec<usize> = (0..decision.redundancy)

@@ -1,14 +1,14 @@
 //! Table of limits: all values in this crate that its authors chose. Each comment states the
-//! meaning, the unit, what breaks if the value is wrong (if it is too small, or too large), and the
-//! test that fails then. `none, work only` means that only time or memory would change; `none`
-//! means that there is no test yet. The test file `tests/all/limits.rs` reads this table.
+//! meaning, the unit, the effects of a value that is too small or too large, and the test that
+//! fails then. `none, work only` means that only time or memory would change; `none` means that
+//! there is no test yet. The test file `tests/all/limits.rs` reads this table.
 
 // Dense ranks.
 
 /// Factor between the noise estimate and the tolerance τ. The rounding of an equilibrated matrix
 /// and the residual of the refined configuration were each measured; they differ at most by a
-/// factor of 4 from the singular value that they cause. Unit: 1. Too small: rounding counts as
-/// rank. Too large: exact redundancy hides small singular values. Test:
+/// factor of 4 from the singular value that they cause. Unit: 1. Too small: a rounding error counts
+/// as rank. Too large: exact redundancy hides small singular values. Test:
 /// `a_singular_value_clears_the_data_by_four`.
 pub const NOISE_FACTOR: f64 = 10.0;
 
@@ -19,47 +19,47 @@ pub const NOISE_FACTOR: f64 = 10.0;
 pub(crate) const CLEARANCE: f64 = 1e3;
 
 /// If the accuracy of the data is worse than this share of a row, the data do not determine the
-/// row. A redundancy that depends on such data does not count. Unit: share of a row of size one.
+/// row. A redundancy that depends on such data does not count. Unit: share of a row of norm one.
 /// Too small: exact redundancy within coarse data is undecided. Too large: rows without reliable
 /// data count as redundant. Test: `coarse_data_hide_what_is_no_rounding`.
 pub const HIDDEN: f64 = 0.01;
 
-/// A singular value above the square root of eps in a matrix of size one is not rounding of the
-/// entries. Unit: singular value of a matrix of size one. Too small: rounding of the configuration
-/// counts as rank. Too large: a misalignment in the drawing counts as rounding. Test:
+/// A singular value above the square root of eps in a matrix of norm one is not rounding of the
+/// entries. Unit: singular value of a matrix of norm one. Too small: the rounding error of the
+/// configuration counts as rank. Too large: a misalignment in the drawing counts as rounding. Test:
 /// `coarse_data_hide_what_is_no_rounding`.
 pub const NOT_ROUNDING: f64 = 1.5e-8;
 
 /// The accuracy of a configuration near a singular one is about √eps, for any residual, because
 /// Newton's method stops there as at a double root. A smallest singular value below this limit may
-/// be zero at the true configuration. Unit: singular value of a matrix of size one. Too small:
+/// be zero at the true configuration. Unit: singular value of a matrix of norm one. Too small:
 /// singular configurations count as regular. Too large: configurations near singular ones are
 /// undecided. Test: `a_singular_value_between_is_undecided`.
 pub const NEARLY_SINGULAR: f64 = 1e-7;
 
 /// Below this smallest singular value, the decided rank is valid, but the reactions that it
 /// determines are large: of size 1/σ_r per unit of load. Data with an accuracy of only σ_r change
-/// these reactions by 100 %. Unit: singular value of a matrix of size one. Too small: large
+/// these reactions by 100 %. Unit: singular value of a matrix of norm one. Too small: large
 /// reactions are not marked. Too large: sound mechanisms are marked. Test:
 /// `a_thousandth_is_nearly_redundant`.
 pub const NEARLY_REDUNDANT: f64 = 1e-3;
 
 /// Margin for the rounding of norms and of the last few operations, each a few eps times the number
-/// of entries (below 2³⁰). Unit: share of the bound. Too small: rounding makes a bound invalid. Too
-/// large: bounds are less sharp. Test: `bounds_are_below_and_near_the_truth`.
+/// of entries (below 2³⁰). Unit: share of the bound. Too small: a rounding error makes a bound
+/// invalid. Too large: bounds are less sharp. Test: `bounds_are_below_and_near_the_truth`.
 pub(crate) const BOUND_SLACK: f64 = 1e-6;
 
 /// Larger noise hides significant values, so that no value counts as zero relative to such noise.
-/// Unit: singular value of a matrix of size one. Too small: no rank of coarse data is certified.
+/// Unit: singular value of a matrix of norm one. Too small: no rank of coarse data is certified.
 /// Too large: significant values count as zero. Test:
 /// `a_number_counts_a_thousand_times_above_its_noise`.
 pub(crate) const NOISE_MAX: f64 = 1e-4;
 
 /// An entry determines the scale of its row and column only above this multiple of its uncertainty.
-/// The factor must not be smaller, because an entry that consists of several roundings of larger
-/// terms must not be scaled up to size one. A large factor has no disadvantage, since the rank does
-/// not depend on scales. Unit: multiples of the uncertainty of the entry. Too small: rounding is
-/// scaled up to size one. Too large: small bodies are scaled badly. Test:
+/// The factor must not be smaller, because an entry that consists of several rounding errors of
+/// larger terms must not be scaled up to norm one. A large factor has no disadvantage, since the
+/// rank does not depend on scales. Unit: multiples of the uncertainty of the entry. Too small:
+/// rounding errors are scaled up to norm one. Too large: small bodies are scaled badly. Test:
 /// `an_entry_near_its_uncertainty_does_not_set_the_scale`.
 pub const SIGNIFICANT: f64 = 1e5;
 
@@ -82,8 +82,8 @@ pub(crate) const WITNESSES: usize = 3;
 
 /// σ_{r+1} vanishes if it decreases by ten digits below the 1e-16 of `f64`. The remaining value
 /// comes from the refinement of the configuration in double-double. Unit: singular value of a
-/// matrix of size one. Too small: the refinement hides exact redundancy. Too large: a misalignment
-/// far below rounding counts as exact. Test: `what_vanishes_is_ten_digits_below_rounding`.
+/// matrix of norm one. Too small: the refinement hides exact redundancy. Too large: a misalignment
+/// far below a rounding error counts as exact. Test: `what_vanishes_is_ten_digits_below_rounding`.
 pub(crate) const VANISHES: f64 = 1e-26;
 
 /// A singular value above this multiple of the tolerance is larger than the data can explain. Unit:
@@ -103,8 +103,8 @@ pub(crate) const COEFFICIENT_BOUND: f64 = 2.0;
 pub(crate) const EXCHANGE_ROUNDS: usize = 8;
 
 /// A direction below this share of the longest direction is rounding. Unit: share of the longest
-/// direction. Too small: rounding counts as a direction. Too large: short directions are lost.
-/// Test: `equal_rows_cancel`.
+/// direction. Too small: a rounding error counts as a direction. Too large: short directions are
+/// lost. Test: `equal_rows_cancel`.
 pub(crate) const DIRECTION_ROUNDING: f64 = 16.0 * f64::EPSILON;
 
 /// Number of inverse iterations. Each iteration multiplies the error by the square of the ratio of
@@ -116,40 +116,40 @@ pub(crate) const INVERSE_ITERATIONS: usize = 3;
 // Coefficients of dependencies.
 
 /// Ratio of the noise of coefficients to the noise of singular values. The additional noise comes
-/// from the triangular solves. Unit: 1. Too small: rounding counts as a coefficient. Too large:
-/// small coefficients are undecided. Test: `planted_matrices_read_as_by_the_dense_code`.
+/// from the triangular solves. Unit: 1. Too small: a rounding error counts as a coefficient. Too
+/// large: small coefficients are undecided. Test: `planted_matrices_read_as_by_the_dense_code`.
 pub(crate) const SOLVE_FACTOR: f64 = 10.0;
 
 /// A coefficient below this limit is never certainly nonzero. If a small part is connected to a
 /// large one, the rounding of the data of the large part affects the small part. The ratio of their
 /// sizes amplifies this effect, and the first order does not show it. Unit: coefficient of the
-/// equilibrated dependencies. Too small: rounding of the data counts as a coefficient. Too large:
-/// small coefficients are undecided. Test: `a_coefficient_has_to_clear_its_tolerance`.
+/// equilibrated dependencies. Too small: the rounding error of the data counts as a coefficient.
+/// Too large: small coefficients are undecided. Test: `a_coefficient_has_to_clear_its_tolerance`.
 pub(crate) const CERTAIN: f64 = 1e-9;
 
 /// Below this σ_r of a certified matrix, the uncertainty of the data would hide all coefficients.
 /// The decision then returns the coefficients of the stored matrix. Unit: singular value of a
-/// matrix of size one. Too small: near redundancy hides all coefficients. Too large: the
+/// matrix of norm one. Too small: near redundancy hides all coefficients. Too large: the
 /// coefficients are those of rounded data. Test:
 /// `coefficients_of_a_nearly_redundant_matrix_are_as_read`.
 pub(crate) const AS_READ: f64 = 1e-6;
 
 /// A coefficient above this multiple of the tolerance is certainly not zero. The tolerance itself
-/// is a tenfold bound of the noise. Unit: multiples of the tolerance. Too small: rounding counts as
-/// a coefficient. Too large: small coefficients are undecided. Test:
+/// is a tenfold bound of the noise. Unit: multiples of the tolerance. Too small: a rounding error
+/// counts as a coefficient. Too large: small coefficients are undecided. Test:
 /// `a_coefficient_has_to_clear_its_tolerance`.
 pub(crate) const COEFFICIENT_CLEARANCE: f64 = 10.0;
 
 /// If the evidence cannot distinguish a coefficient of this size from zero, no coefficient counts
-/// as zero. Unit: coefficient of the equilibrated dependencies. Too small: imprecise evidence
-/// decides nothing. Too large: imprecise evidence makes coefficients zero. Test:
-/// `a_coefficient_has_to_clear_its_tolerance`.
+/// as zero. Unit: coefficient of the equilibrated dependencies. Too small: the rank remains
+/// undecided if the evidence is imprecise. Too large: imprecise evidence makes coefficients zero.
+/// Test: `a_coefficient_has_to_clear_its_tolerance`.
 pub(crate) const TOLERANCE_MAX: f64 = 1e-5;
 
 /// The corresponding limit for the noise of a stated tolerance. The first order is not valid for
-/// larger changes. Unit: coefficient of the equilibrated dependencies. Too small: coarse tolerances
-/// decide nothing. Too large: the first order is used outside its range of validity. Test:
-/// `within_a_tolerance_only_what_is_small_is_zero`.
+/// larger changes. Unit: coefficient of the equilibrated dependencies. Too small: coefficients
+/// remain undecided for coarse tolerances. Too large: a first-order estimate is used outside its
+/// range of validity. Test: `within_a_tolerance_only_what_is_small_is_zero`.
 pub(crate) const STATED_MAX: f64 = 0.1;
 
 /// A coefficient above this limit does not count as zero within a stated tolerance. Data within the
@@ -185,8 +185,8 @@ pub(crate) const COMBINATION_SPREAD: f64 = 1e4;
 pub(crate) const POSE_FACTOR: f64 = 10.0;
 
 /// Coefficients below this limit are rounding, for any stated tolerance. Unit: coefficient of the
-/// scaled rows. Too small: rounding couples rows. Too large: small coefficients do not couple rows.
-/// Test: `an_open_row_joins_what_it_belongs_to_beyond_rounding`.
+/// scaled rows. Too small: a rounding error couples rows. Too large: small coefficients do not
+/// couple rows. Test: `an_open_row_joins_what_it_belongs_to_beyond_rounding`.
 pub const COEFFICIENT_ROUNDING: f64 = 1e-12;
 
 // Sparse ranks.
@@ -238,7 +238,7 @@ pub(crate) const HYPERPLANES_MAX: usize = 20_000;
 
 /// If the last pivot of the vectors of a hyperplane is below this limit, the vectors do not
 /// determine the hyperplane: noise would hide small coefficients. Unit: 1. Too small: noise counts
-/// as a circuit. Too large: circuits are missed. Test:
+/// as a circuit. Too large: circuits are not found. Test:
 /// `vectors_have_to_span_what_a_circuit_vanishes_on`.
 pub(crate) const PIVOT_MIN: f64 = 1e-4;
 

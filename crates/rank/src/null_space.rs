@@ -55,8 +55,8 @@ pub fn support_tolerance(decision: &RankDecision) -> f64 {
 /// Returns the connected components of the graph with an edge between kept row i and dropped row j
 /// if T_ji ≠ 0.
 ///
-/// They are the components of the row matroid. Dependencies couple the rows of one list, but never
-/// rows of different lists. The result does not depend on the choice of the kept rows.
+/// These sets are the components of the row matroid. Dependencies couple the rows of one list, but
+/// never rows of different lists. The result does not depend on the choice of the kept rows.
 ///
 /// ```
 /// use linalg::Matrix;

@@ -3,7 +3,7 @@
 //! that are independent of each other.
 //!
 //! Columns form blocks (bodies), rows form groups (joints). Three facts are used. A row that one of
-//! them settles needs no further analysis, and all other rows need numerical values.
+//! these rules decides needs no further analysis, and all other rows need numerical values.
 //!
 //! - **Parts.** Groups that share no block, directly or through other groups, are independent
 //!   problems. The ground is not a block.

@@ -61,8 +61,8 @@ fn series(x: f64, order: u8) -> f64 {
 mod tests {
     use super::*;
 
-    /// Permitted relative error: a few roundings, except near half a revolution, where the sine
-    /// loses digits by cancellation.
+    /// Permitted relative error: a few rounding errors, except near half a revolution, where the
+    /// sine loses digits by cancellation.
     const ROUNDINGS: f64 = 2e-15;
 
     #[test]

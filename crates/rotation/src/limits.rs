@@ -1,6 +1,6 @@
 //! Table of limits: all values in this crate that its authors chose. Each comment states the
-//! meaning, the unit, what breaks if the value is wrong (if it is too small, or too large), and the
-//! test that fails then. The test file `tests/all/limits.rs` reads this table.
+//! meaning, the unit, the effects of a value that is too small or too large, and the test that
+//! fails then. The test file `tests/all/limits.rs` reads this table.
 
 /// Cosine of the largest angle, 3 rad, for which the function returns a value. At half a revolution
 /// the rotation vector changes its sign. Unit: 1. Too small: a step may jump over half a

@@ -167,8 +167,8 @@ fn judged_as_one(
     })
 }
 
-/// Finds only the singular and nearly singular configurations of a motion, without the verdicts
-/// there. This takes a fraction of the time of [`along_motion`].
+/// Finds only the singular and nearly singular configurations of a motion, without the verdicts at
+/// these configurations. This takes a fraction of the time of [`along_motion`].
 ///
 /// # Errors
 /// Same errors as [`along_motion`].

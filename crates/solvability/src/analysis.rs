@@ -95,7 +95,8 @@ impl Analysis {
     }
 
     /// Returns the decision on all rows with all dependencies, assembled from the parts, or `None`
-    /// if there are too many rows. Its evidence is that of the weakest part.
+    /// if there are too many rows. The evidence of the decision is the evidence of the weakest
+    /// part.
     #[must_use]
     pub fn whole(&self) -> Option<Cow<'_, RankDecision>> {
         if let [one] = self.parts.as_slice()

@@ -24,12 +24,15 @@ mod tests;
 
 use std::sync::Arc;
 
+use model::words::whole;
 use model::{ConstraintId, Frame};
 
 pub use of_parts::ReactionBounds;
 
 use crate::choices::{Centres, FreeMultipliers};
 use crate::groups::{Configuration, LinearForm, RequestError};
+use crate::limits::{CLEAR_SUPPORT, ELASTIC_SETS};
+use crate::polyhedra::polyhedron::HalfSpace;
 use crate::value::NoFiniteReaction;
 use crate::verdict::Verdict;
 use hull::{Element, Hull, HullError};
@@ -178,8 +181,17 @@ pub enum BoundsError {
     #[error("compliances range from nominal values > 0 to a multiple ≥ 1 of them, not {0}")]
     Range(f64),
     /// Too many sets of components can be zero together.
-    #[error("more than 100 000 sets of load components would have to be examined")]
+    #[error(
+        "more than {} sets of load components would have to be examined",
+        whole(ELASTIC_SETS)
+    )]
     Many,
+    /// Whether one-sided joints press is not clear.
+    #[error("a load is so close to the limit of a one-sided joint that its side is undecided")]
+    Limits,
+    /// One-sided joints open.
+    #[error("one-sided joints cannot all stay closed, however stiff the joints are")]
+    Opens,
     /// No finite reactions exist.
     #[error("no finite reaction exists")]
     NoFinite(Arc<NoFiniteReaction>),
@@ -192,6 +204,7 @@ impl From<HullError> for BoundsError {
     fn from(error: HullError) -> Self {
         match error {
             HullError::Free { free } => Self::Rigid { free },
+            HullError::Limits => Self::Limits,
             HullError::Unclear { .. } | HullError::Many => Self::Many,
         }
     }
@@ -206,6 +219,10 @@ pub struct ElasticSolutions<'c, 'm> {
     lambda_0: Vec<f64>,
     loads: Vec<ElasticLoad>,
     hull: Hull,
+    /// The forces with which one-sided joints press: they are not negative.
+    presses: Vec<HalfSpace>,
+    /// Size of the loads (N).
+    size: f64,
 }
 
 impl<'m> Configuration<'m> {
@@ -316,7 +333,23 @@ impl<'m> Configuration<'m> {
                 nominal: &nominal,
             });
         }
+        let (mut presses, mut size) = (Vec::new(), linalg::kernels::max_abs(lambda_0));
+        for id in self.layout().constraint_ids() {
+            let Some(own) = self.press(id)? else {
+                continue;
+            };
+            let other = displaced.map(|(at, _)| at.press(id)).transpose()?.flatten();
+            let value = other.as_ref().unwrap_or(&own).value(lambda_0);
+            size = size.max(value.abs());
+            let row = match self.judge(&own)?.verdict {
+                Verdict::Unique => vec![0.0; p],
+                _ => along(&own, &free),
+            };
+            presses.push(HalfSpace { row, value });
+        }
         Ok(ElasticSolutions {
+            presses,
+            size: if size > 0.0 { size } else { 1.0 },
             configuration: displaced.map_or(self, |(at, _)| at),
             is_judged: displaced.is_none(),
             free,
@@ -399,24 +432,52 @@ impl ElasticSolutions<'_, '_> {
         match self.verdict(form)? {
             Verdict::Unique => Ok(ElasticBounds::of(value)),
             Verdict::NotUnique => {
-                let [lowest, highest] = self.hull.ends(&along(form, &self.free))?;
+                let along = along(form, &self.free);
+                let [lowest, highest] = self.hull.ends(&along)?;
                 let loads = |groups: &[usize]| groups.iter().map(|&k| self.loads[k]).collect();
                 let complete = lowest.is_bound && highest.is_bound;
                 let is_reached = lowest.is_reached && highest.is_reached;
                 if !(complete || is_reached) {
                     return Err(BoundsError::Many);
                 }
-                Ok(ElasticBounds {
+                let mut bounds = ElasticBounds {
                     lowest: value + lowest.value,
                     highest: value + highest.value,
                     at_lowest: loads(&lowest.groups),
                     at_highest: loads(&highest.groups),
                     reached: [lowest.is_reached, highest.is_reached],
                     complete,
-                })
+                };
+                if complete && !self.presses.is_empty() {
+                    self.press_on_all(&along, value, &mut bounds)?;
+                }
+                Ok(bounds)
             }
             _ => Err(BoundsError::Verdict),
         }
+    }
+
+    /// Restricts bounds to loads that press on all one-sided joints.
+    fn press_on_all(
+        &self,
+        along: &[f64],
+        value: f64,
+        bounds: &mut ElasticBounds,
+    ) -> Result<(), BoundsError> {
+        let found = self.hull.ends_within(along, &self.presses, self.size)?;
+        let [lowest, highest] = found.ok_or(BoundsError::Opens)?.map(|end| value + end);
+        let rounding = CLEAR_SUPPORT * self.size;
+        // With one coordinate, compliances reach every value between two that they reach.
+        let is_line = self.free.z.ncols() == 1 && bounds.reached == [true; 2];
+        if lowest > bounds.lowest + rounding {
+            (bounds.lowest, bounds.reached[0]) = (lowest, is_line);
+            bounds.at_lowest.clear();
+        }
+        if highest < bounds.highest - rounding {
+            (bounds.highest, bounds.reached[1]) = (highest, is_line);
+            bounds.at_highest.clear();
+        }
+        Ok(())
     }
 
     /// Returns the largest magnitude of a vector with these components.
@@ -434,7 +495,14 @@ impl ElasticSolutions<'_, '_> {
             };
             terms.push((value, along));
         }
-        Ok(self.hull.largest_norm(&terms)?)
+        let largest = self.hull.largest_norm(&terms)?;
+        if self.presses.is_empty() {
+            return Ok(largest);
+        }
+        let bounds = forms.iter().map(|form| self.bounds(form));
+        let bounds = bounds.collect::<Result<Vec<_>, _>>()?;
+        let ends = bounds.iter().map(|b| b.lowest.abs().max(b.highest.abs()));
+        Ok(largest.min(linalg::kernels::norm(&ends.collect::<Vec<_>>())))
     }
 
     fn verdict(&self, form: &LinearForm) -> Result<Verdict, RequestError> {

@@ -252,7 +252,7 @@ impl<'a> UncertainRows<'a> {
 
     /// Returns whether the kept rows are nearly dependent in the scaling of the bodies (rotations
     /// times the arm of the body), at the configuration of the scratch. Equilibration does not show
-    /// this: it may scale the only misaligned entry of a column up to size one.
+    /// this: it may scale the only misaligned entry of a column up to norm one.
     pub(crate) fn nearly_redundant(
         &self,
         mechanism: &Mechanism,

@@ -142,7 +142,7 @@ impl Centres {
         own.map(|(_, point)| *point)
     }
 
-    /// Returns the points of the joints of a part, with their numbers there.
+    /// Returns the points of the joints of a part, with their numbers in the part.
     pub(crate) fn of_reactions(&self, own: &impl Fn(ConstraintId) -> Option<ConstraintId>) -> Self {
         let of = |(id, point): &(ConstraintId, [f64; 3])| Some((own(*id)?, *point));
         Self(self.0.iter().filter_map(of).collect())
@@ -165,7 +165,7 @@ impl ElasticSupports {
         self.compliances.iter().map(|c| c.reaction).chain(misfits)
     }
 
-    /// Returns the share of the joints and drives of a part, with their numbers there.
+    /// Returns the share of the joints and drives of a part, with their numbers in the part.
     fn of_reactions(&self, own: impl Fn(ConstraintId) -> Option<ConstraintId>) -> Self {
         let compliance = |c: &Compliance| {
             let reaction = own(c.reaction)?;
@@ -184,7 +184,7 @@ impl ElasticSupports {
 }
 
 /// Misfit of a joint or drive without loads: displacement of its second member, or of the ground,
-/// from the place at which the joint fits, in global components.
+/// from the position at which the joint fits, in global components.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Misfit {
     /// The joint or drive.

@@ -9,7 +9,7 @@ use crate::mechanism::component_map;
 use crate::verdict::{Judgement, Verdict};
 
 /// Returns the names of the numbers of a joint or drive for which a simulation computes verdicts.
-/// They are its components that are not identically zero, and the named component of its
+/// The numbers are the components that are not identically zero, and the named component of its
 /// definition, such as `N` or `drive`. [`ConstraintGroup::component_names`] lists named components
 /// only for couplings.
 pub(crate) fn number_names(group: &ConstraintGroup) -> impl Iterator<Item = &'static str> {
@@ -27,7 +27,7 @@ pub(crate) fn all_components(
 }
 
 /// Returns the verdicts on the components of a joint or drive at the configuration of the scratch,
-/// in the order of their names. Its rows have these indices in the basis.
+/// in the order of their names. The rows of the joint or drive have these indices in the basis.
 pub(crate) fn judge_components(
     mechanism: &Mechanism,
     id: ConstraintId,

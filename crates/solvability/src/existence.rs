@@ -86,19 +86,19 @@ impl Contradiction {
         if self.is_forced {
             let asked = self.demands.iter().map(|d| {
                 let rate = d.asked(ConstraintLevel::Velocity);
-                format!("`{}` asks {} {rate}", d.drive, d.of_what())
+                format!("`{}` requires {} {rate}", d.drive, d.of_what())
             });
             let asked = words::list(&asked.collect::<Vec<_>>());
             let (word, verb) = match self.demands.len() {
-                1 => ("drive", "asks for a velocity"),
+                1 => ("drive", "requires a velocity"),
                 _ => (
                     "drives",
-                    "contradict each other: together they ask for velocities",
+                    "contradict each other: together they require velocities",
                 ),
             };
             let drives = self.demands.iter().map(|d| format!("`{}`", d.drive));
             return format!(
-                "{word} {} {verb} with which {} cannot hold any longer: these then ask for different {level}, which differ by {size} ({asked})",
+                "{word} {} {verb} with which {} can no longer be satisfied: these then require different {level}, which differ by {size} ({asked})",
                 words::list(&drives.collect::<Vec<_>>()),
                 of_rows(&rows),
                 size = quantity(*size, unit)
@@ -106,12 +106,12 @@ impl Contradiction {
         }
         match self.demands.as_slice() {
             [] => format!(
-                "rows {} depend on each other but ask for different {level}: they differ by {size}",
+                "rows {} depend on each other but require different {level}, which differ by {size}",
                 rows.join(", "),
                 size = quantity(*size, unit)
             ),
             [only] => format!(
-                "drive `{}` asks {} {}, which differs from what {} allow by {size}",
+                "drive `{}` requires {} {}, which differs by {size} from the value that {} allow",
                 only.drive,
                 only.of_what(),
                 only.asked(*level),
@@ -120,17 +120,18 @@ impl Contradiction {
             ),
             [first, others @ ..] => {
                 let drives = self.demands.iter().map(|d| format!("`{}`", d.drive));
-                let asked =
-                    |d: &Demand| format!("`{}` asks {} {}", d.drive, d.of_what(), d.asked(*level));
+                let asked = |d: &Demand| {
+                    format!("`{}` requires {} {}", d.drive, d.of_what(), d.asked(*level))
+                };
                 let mut all = vec![asked(first)];
                 all.extend(others.iter().map(asked));
                 let through = match rows.as_slice() {
                     [] => String::new(),
-                    [_] => format!(", and {} ties them to each other", of_rows(&rows)),
-                    rows => format!(", and {} tie them to each other", of_rows(rows)),
+                    [_] => format!(", and {} connects them with each other", of_rows(&rows)),
+                    rows => format!(", and {} connect them with each other", of_rows(rows)),
                 };
                 format!(
-                    "drives {} contradict each other: they ask for different {level}, which differ by {size} ({}{through})",
+                    "drives {} contradict each other: they require different {level}, which differ by {size} ({}{through})",
                     words::list(&drives.collect::<Vec<_>>()),
                     words::list(&all),
                     size = quantity(*size, unit)
@@ -145,14 +146,14 @@ impl Contradiction {
         }
         match (self.drives, self.level) {
             (1, _) => {
-                "The others do not allow the motion that one of them prescribes: the mechanism is locked, or in a singular configuration. Begin at \
+                "The remaining rows do not allow the motion that one row prescribes: the mechanism is locked, or in a singular configuration. Begin at \
                  another configuration, or prescribe another motion"
             }
             (2.., _) => {
                 "Redundant drives must follow the same motion; delete or correct one of them"
             }
             (0, ConstraintLevel::Position) => {
-                "They are redundant here but not elsewhere: correct the dimensions, or delete one of them"
+                "The rows are redundant here but not at other configurations: correct the dimensions, or delete one of them"
             }
             (0, _) => {
                 "The configuration is singular and cannot be left with these velocities: change the velocities or the start"
@@ -183,8 +184,9 @@ pub struct Ranks<'a> {
 /// The sum over a circuit is compared with the size of the terms that are added in its rows
 /// ([`model::Scales::terms`]), times the noise of the coefficients, [`rank::support_tolerance`].
 /// Near a singular configuration, the coefficients that express redundant rows by independent rows
-/// have errors of 1/σ_r roundings, and the agreement cannot be better. Only rows that are coupled
-/// with those of the circuit count, so that large terms elsewhere do not hide a contradiction.
+/// have errors of 1/σ_r rounding errors, and the agreement cannot be better. Only rows that are
+/// coupled with those of the circuit count, so that large terms elsewhere do not hide a
+/// contradiction.
 ///
 /// # Errors
 /// The function returns an error if the state has the wrong number of values, or if a value is not

@@ -114,7 +114,7 @@ pub enum ExplanationError {
     #[error(transparent)]
     Rank(#[from] rank::RankError),
     /// The rank is undecided, so every sentence would depend on one of two possible ranks.
-    #[error("nothing can be explained while the rank is undecided: {0}")]
+    #[error("explanations need a decided rank: {0}")]
     Undecided(rank::Doubt),
     /// The solvability was computed from another constraint matrix.
     #[error(transparent)]

@@ -41,8 +41,8 @@ pub struct Freedoms {
     pub mobility: usize,
     /// Motions that are possible while the drives are locked.
     pub motions: FreeMotions,
-    /// A basis of the motions that second order excludes, as far as this is decided. They are free
-    /// only at first order, and no finite motion has such a velocity.
+    /// A basis of the motions that second order excludes, as far as this is decided. Such a motion
+    /// is free only at first order, and no finite motion has its velocity.
     pub blocked: Vec<FreeMotion>,
     /// A basis of the motions for which second order neither excludes nor proves a finite motion.
     pub undecided: Vec<FreeMotion>,

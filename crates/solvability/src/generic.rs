@@ -83,9 +83,9 @@ pub fn generic(mechanism: &Mechanism, t: f64, q: &[f64]) -> Option<Generic> {
     Some(Comparison::of(mechanism, t, q)?.found)
 }
 
-/// Works like [`generic`], with the verdicts on all joints and drives. They are the worst verdicts
-/// at the configurations with the smallest redundancy, or `None` if the verdicts there are not
-/// known.
+/// Works like [`generic`], with the verdicts on all joints and drives. The result contains the
+/// worst verdicts at the configurations with the smallest redundancy, or `None` if the verdicts
+/// there are not known.
 #[must_use]
 pub fn generic_with_verdicts(
     mechanism: &Mechanism,
@@ -185,9 +185,10 @@ impl Comparison {
         Some(mechanism.layout().constraint_ids().map(of).collect())
     }
 
-    /// Returns the verdicts on all components at one of these configurations. Rows that were not
-    /// compared are redundant there within a stated tolerance. If the decision on all rows does not
-    /// find them redundant, its rank differs, and the verdicts are not known.
+    /// Returns the verdicts on all components at one of these configurations. At the other
+    /// configurations, rows that were not compared are redundant within a stated tolerance. If the
+    /// decision on all rows does not find them redundant, its rank differs, and the verdicts are
+    /// not known.
     fn verdicts_at(
         &self,
         mechanism: &Mechanism,

@@ -32,7 +32,7 @@ pub struct ReactionVerdict {
     /// of a coupling.
     pub components: Vec<ComponentVerdict>,
     /// The components that are zero at this configuration under any load, such as the force along a
-    /// knife edge. They are unique, but not informative.
+    /// knife edge. Such components are unique, but not informative.
     pub zero_components: Vec<&'static str>,
     /// Basis of the unique directions, in these components.
     pub unique_directions: Vec<Vec<f64>>,
@@ -41,7 +41,7 @@ pub struct ReactionVerdict {
     /// is undecided; then there are no unique directions, either.
     pub live_directions: Option<Vec<Vec<f64>>>,
     /// The largest component of the reaction that counts as zero within the tolerance of the scene,
-    /// so that these directions are unique. It is zero if there is no such component.
+    /// so that these directions are unique. The value is zero if no component counts as zero.
     pub directions_left_out: f64,
 }
 

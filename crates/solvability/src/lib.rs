@@ -24,6 +24,8 @@
 //! | `judged` | verdicts on the reactions of one part |
 //! | `certificate` | rank in double-double arithmetic at a refined configuration |
 //! | [`questions`] | sums, frames, choices and deletions, computed from the parts involved |
+//! | [`contacts`] | loads that one-sided joints and contacts that grip permit |
+//! | `polyhedra` | linear programs, polyhedra and complementarity for contacts |
 //! | [`mod@structure`] | reactions that are unique because of the structure alone |
 //! | `sparse`, `large` | analysis of a large set of joints with sparse matrices |
 //! | [`mod@explain`] | explanations: coupled reactions, free directions and sentences |
@@ -42,6 +44,7 @@ pub mod bounds;
 mod certificate;
 pub mod choices;
 mod components;
+pub mod contacts;
 mod directions;
 mod error;
 pub mod existence;
@@ -62,6 +65,7 @@ pub mod memory;
 pub mod moments;
 mod numerical_rank;
 pub mod parts;
+mod polyhedra;
 mod pose;
 pub mod questions;
 mod row_decision;
@@ -96,6 +100,11 @@ pub use choices::{
     CarriedChoices, CarriedSolution, Centres, Choice, ChoiceError, ChosenValues, Compliance,
     Distribution, ElasticSupports, Equations, Misfit, NamedChoice, NormWeights, ReactionValues,
     RowTerms, Solution, minimise, solution,
+};
+pub use contacts::{
+    CarriedContacts, Closure, ConditionKind, ContactCondition, GripVerdict, Holds, Impossible,
+    Liftoff, PermittedEnd, PermittedError, PermittedRange, PermittedReactions, RangeKind,
+    TwoSidedContacts, lifted, opened,
 };
 pub use error::AnalysisError;
 pub use existence::{
@@ -145,4 +154,4 @@ pub use stretches::{
 pub use structure::structure;
 pub use value::{Datum, Label, NoFiniteReaction, Sensitivity, Value};
 pub use verdict::{Judgement, Verdict};
-pub use weaker::{ReplacedJoints, Replacements, WeakerJoint};
+pub use weaker::{CoupledJoints, Replacements, WeakerJoint};

@@ -1,7 +1,7 @@
 //! Table of limits: all numbers of this crate that its authors chose. Each comment states the
-//! meaning, the unit, what breaks if the number is wrong (if it is too small, or too large), and
-//! the test that fails then. `none, work only` means that only time or memory would change; `none`
-//! means that there is no test yet. The test file `tests/all/limits.rs` reads this table.
+//! meaning, the unit, the effects of a number that is too small or too large, and the test that
+//! fails then. `none, work only` means that only time or memory would change; `none` means that
+//! there is no test yet. The test file `tests/all/limits.rs` reads this table.
 
 // Ranks and certificates.
 
@@ -12,8 +12,8 @@ pub(crate) const ROWS_MAX: usize = 600;
 
 /// Largest number of rows for which coefficients are decided within a stated tolerance. The work
 /// grows with the number of rows times the number of dependencies, and with the cube of both
-/// numbers. Unit: rows. Too small: coefficients are decided within rounding only. Too large: the
-/// analysis takes longer. Test: `a_component_that_is_none_within_the_tolerance_says_so`.
+/// numbers. Unit: rows. Too small: coefficients are decided only within rounding errors. Too large:
+/// the analysis takes longer. Test: `a_component_that_is_none_within_the_tolerance_says_so`.
 pub(crate) const TOLERANCE_ROWS: usize = 200;
 
 /// A coefficient above this value is nonzero without further tests: its row belongs to the
@@ -63,63 +63,64 @@ pub const CARRIED_VECTORS: usize = 8;
 /// none.
 pub(crate) const MOTION_CLEARANCE: f64 = 30.0;
 
-/// The data are accurate to several roundings, but the numbers of a motion are accurate to one
-/// rounding. Unit: roundings of data. Too small: the rank of a motion is decided below its
-/// rounding. Too large: redundant rows near singular configurations are undecided. Test: none.
+/// The data are accurate to several rounding errors, but the numbers of a motion to one rounding
+/// error. Unit: roundings of data. Too small: rounding errors of the motion decide its rank. Too
+/// large: redundant rows near singular configurations are undecided. Test: none.
 pub(crate) const ONE_ROUNDING: f64 = f64::EPSILON / 2.0 / model::ROUNDING;
 
 /// The entries of the map from multipliers to a reaction are products of a few numbers near one. If
 /// a row is below this share of the largest row, it contains only rounding errors. Unit: share of
-/// the largest row. Too small: rounding counts as a component of a reaction. Too large: small
-/// components count as zero. Test: none.
+/// the largest row. Too small: a rounding error counts as a component of a reaction. Too large:
+/// small components count as zero. Test: none.
 pub(crate) const ROUNDING_OF_MAP: f64 = 1e-14;
 
 /// A first-order estimate is not valid for larger angles (rad). Unit: rad. Too small: estimates
-/// with coarse angle tolerances are rejected. Too large: the first order is used outside its range
-/// of validity. Test: none.
+/// with coarse angle tolerances are rejected. Too large: a first-order estimate is used outside its
+/// range of validity. Test: none.
 pub(crate) const LARGEST_TURN: f64 = 0.1;
 
 /// A component of a unit vector is reported if it is above this value, even if data within their
 /// stated tolerances could make it zero. If it were left out, the printed vector would have a
-/// different direction. Unit: part of a unit vector. Too small: rounding is reported. Too large:
-/// small components are reported as zero. Test:
+/// different direction. Unit: part of a unit vector. Too small: rounding errors are reported. Too
+/// large: small components are reported as zero. Test:
 /// `a_part_of_a_direction_is_told_however_uncertain_coefficients_are`.
 pub(crate) const LARGEST_ROUNDING: f64 = 1e-5;
 
 // The intended mechanism.
 
-/// From this singular value upwards, no rounding can explain a lower rank of a matrix of size one.
+/// From this singular value upwards, no rounding can explain a lower rank of a matrix of norm one.
 /// Near a singular configuration, a singular value changes with the square root of the data. A
 /// lower rank by rounding would then require a value below a few times √(3·eps). Unit: singular
-/// value of a matrix of size one. Too small: rounding decides a rank. Too large: the expensive test
-/// runs at configurations that are not nearly singular. Test: none.
+/// value of a matrix of norm one. Too small: a rounding error decides a rank. Too large: the
+/// expensive test runs at configurations that are not nearly singular. Test: none.
 pub(crate) const CLEAR_OF_ROUNDING: f64 = 1e-6;
 
 /// The same limit as a multiple of the accuracy of the entries. The larger of the two limits
-/// applies. Unit: multiples of the noise. Too small: noise decides a rank. Too large: the expensive
-/// test runs at configurations that are not nearly singular. Test: none.
+/// applies. Unit: multiples of the noise. Too small: a rounding error decides a rank. Too large:
+/// the expensive test runs at configurations that are not nearly singular. Test: none.
 pub(crate) const CLEAR_OF_NOISE: f64 = 1e3;
 
 /// The double-double computation must confirm this share of a singular value from `f64`. Unit:
-/// share of a singular value. Too small: rounding of `f64` counts as a singular value. Too large:
-/// ranks are not confirmed. Test: `a_door_turns_within_its_tolerance`.
+/// share of a singular value. Too small: a rounding error of `f64` counts as a singular value. Too
+/// large: ranks are not confirmed. Test: `a_door_turns_within_its_tolerance`.
 pub(crate) const CONFIRMED: f64 = 0.1;
 
 /// A lower rank is reported if data within this share of the size of the mechanism have that rank.
-/// Unit: share of the size. Too small: near redundancy is not reported. Too large: sound mechanisms
-/// are reported as nearly redundant. Test: `a_dead_centre_is_a_pose_and_no_redundancy`.
+/// Unit: share of the size of the mechanism. Too small: near redundancy is not reported. Too large:
+/// sound mechanisms are reported as nearly redundant. Test:
+/// `a_dead_centre_is_a_pose_and_no_redundancy`.
 pub(crate) const NEAR_TOLD: f64 = 1e-3;
 
 /// The error of first-order equations is the square of the change, as a share of the size, times
 /// this factor. The change that lowers the rank at all configurations is up to ten times the change
-/// for one entry, and second derivatives are about ten if links are short. Unit: 1. Too small: the
-/// first order is used outside its range of validity. Too large: near redundancy is not proved.
-/// Test: `a_dead_centre_is_a_pose_and_no_redundancy`.
+/// for one entry, and second derivatives are about ten if links are short. Unit: 1. Too small: a
+/// first-order estimate is used outside its range of validity. Too large: near redundancy is not
+/// proved. Test: `a_dead_centre_is_a_pose_and_no_redundancy`.
 pub(crate) const CURVED: f64 = 100.0;
 
 /// Maximum constraint violation of a configuration on a continuation path, as a share of the size.
-/// Unit: share of the size. Too small: the continuation does not converge. Too large: the
-/// configurations violate the constraints. Test:
+/// Unit: share of the size of the mechanism. Too small: the continuation does not converge. Too
+/// large: the configurations violate the constraints. Test:
 /// `a_pin_that_is_off_is_redundant_from_a_part_of_the_misfit_on`.
 pub(crate) const WALKED: f64 = 1e-12;
 
@@ -130,10 +131,10 @@ pub(crate) const WALKED: f64 = 1e-12;
 /// `a_pin_that_is_off_is_redundant_from_a_part_of_the_misfit_on`.
 pub(crate) const CLEAR_ENTRY: f64 = 0.1;
 
-/// A dependency is one of positions if the weight of its nonholonomic rows is below this share of
-/// the weight of its other rows. Unit: share of the weights. Too small: dependencies of positions
-/// are examined at one configuration only. Too large: dependencies of velocities are examined at
-/// other configurations. Test: none.
+/// A dependency counts as a dependency of positions if the weight of its nonholonomic rows is below
+/// this share of the weight of its other rows. Unit: share of the weights. Too small: dependencies
+/// of positions are examined at one configuration only. Too large: dependencies of velocities are
+/// examined at other configurations. Test: none.
 pub(crate) const HOLONOMIC: f64 = 1e-6;
 
 /// Singular vectors for singular values below this share of the largest one are rounding, and need
@@ -149,8 +150,8 @@ pub(crate) const RESOLVED: f64 = 1e-13;
 pub(crate) const PAIRS: usize = 4;
 
 /// Rounding of an entry of a scaled C between unit vectors, in units of eps·√(m·n). Unit:
-/// eps·√(m·n). Too small: rounding of an entry counts as a change of data. Too large: shares are
-/// too small. Test: `a_misfit_above_the_rounding_of_entries_is_one_of_data`.
+/// eps·√(m·n). Too small: the rounding error of an entry counts as a change of data. Too large:
+/// shares are too small. Test: `a_misfit_above_the_rounding_of_entries_is_one_of_data`.
 pub(crate) const ENTRY_ROUNDINGS: f64 = 16.0;
 
 /// Number of configurations on each side of the start in a continuation. Unit: poses. Too small: a
@@ -160,8 +161,8 @@ pub(crate) const WALK_POSES: usize = 3;
 
 /// Distance from one configuration to the next, as a share of the size or in radians. It is short,
 /// so that the continuation does not cross a singular configuration onto another branch. Unit:
-/// share of the size, or rad. Too small: the configurations are nearly equal. Too large: the
-/// continuation reaches other branches. Test:
+/// share of the size of the mechanism, or rad. Too small: the configurations are nearly equal. Too
+/// large: the continuation reaches other branches. Test:
 /// `a_pin_that_is_off_is_redundant_from_a_part_of_the_misfit_on`.
 pub(crate) const WALK_REACH: f64 = 0.05;
 
@@ -218,8 +219,8 @@ pub(crate) const LEAST_WEIGHT: f64 = 1e-9;
 
 /// Largest difference of two results that agree, as a share of the size. Positions cannot be
 /// corrected onto nonholonomic rows later, so errors of steps that are too long would remain. Unit:
-/// share of the size. Too small: the steps become too small. Too large: nonholonomic rows are
-/// violated. Test: `what_edges_lead_stays_on_its_way`.
+/// share of the size of the mechanism. Too small: the steps become too small. Too large:
+/// nonholonomic rows are violated. Test: `what_edges_lead_stays_on_its_way`.
 pub(crate) const FOLLOWED: f64 = 1e-12;
 
 // Other configurations.
@@ -239,8 +240,8 @@ pub(crate) const WALKS: usize = 12;
 /// `a_drive_that_is_redundant_at_the_start_alone_contradicts_nothing_later`.
 pub(crate) const GENERIC_STEPS: usize = 4;
 
-/// Length of a step, as a share of the size of the mechanism or in radians. Unit: share of the
-/// size, or rad. Too small: the configurations are near the given one. Too large: the
+/// Length of a step, as a share of the size of the mechanism or in radians. Unit: share of the size
+/// of the mechanism, or rad. Too small: the configurations are near the given one. Too large: the
 /// configurations cannot be assembled. Test:
 /// `a_drive_that_is_redundant_at_the_start_alone_contradicts_nothing_later`.
 pub(crate) const GENERIC_STEP: f64 = 0.2;
@@ -259,21 +260,22 @@ pub(crate) const GENERIC_STRAYED: f64 = 0.3;
 
 /// Rows that are redundant at one configuration are tested after a step on the other rows. They are
 /// redundant there, too, if their violation is below this share of their terms. Unit: share of the
-/// terms. Too small: rounding counts as a violation. Too large: rows that become inconsistent count
-/// as redundant. Test: `legs_that_stay_parallel_are_not_compared_with_those_that_do_not`.
+/// terms. Too small: a rounding error counts as a violation. Too large: rows that become
+/// inconsistent count as redundant. Test:
+/// `legs_that_stay_parallel_are_not_compared_with_those_that_do_not`.
 pub(crate) const GENERIC_HOLDS: f64 = 1e-12;
 
 /// Minimum distance of the configurations from each other and from the given one, in the unit of
-/// the step. Unit: share of the size, or rad. Too small: the same configuration is examined twice.
-/// Too large: too few configurations are found. Test:
+/// the step. Unit: share of the size of the mechanism, or rad. Too small: the same configuration is
+/// examined twice. Too large: too few configurations are found. Test:
 /// `a_drive_that_is_redundant_at_the_start_alone_contradicts_nothing_later`.
 pub(crate) const POINTS_APART: f64 = 0.1;
 
 // Limit positions of drives.
 
 /// Step along the curve of configurations towards the limit position of the drives. Unit: share of
-/// the size, or rad. Too small: the limit position is not reached. Too large: corrections lead to
-/// another branch. Test: `a_winch_stops_where_its_bar_is_stretched`.
+/// the size of the mechanism, or rad. Too small: the limit position is not reached. Too large:
+/// corrections lead to another branch. Test: `a_winch_stops_where_its_bar_is_stretched`.
 pub(crate) const LIMIT_STEP: f64 = 0.02;
 
 /// Maximum number of such steps. A run that stops at a limit position ends at most this many steps
@@ -287,9 +289,9 @@ pub(crate) const LIMIT_STEPS: usize = 20;
 /// large: the analysis takes longer. Test: `a_winch_stops_where_its_bar_is_stretched`.
 pub(crate) const LIMIT_CORRECTIONS: usize = 12;
 
-/// The iteration has converged if its correction is shorter than this. Unit: share of the size, or
-/// rad. Too small: rounding is corrected without end. Too large: the limit position has few digits.
-/// Test: `a_winch_stops_where_its_bar_is_stretched`.
+/// The iteration has converged if its correction is shorter than this. Unit: share of the size of
+/// the mechanism, or rad. Too small: rounding errors are corrected without end. Too large: the
+/// limit position has few digits. Test: `a_winch_stops_where_its_bar_is_stretched`.
 pub(crate) const LIMIT_ARRIVED: f64 = 1e-11;
 
 /// Number of halvings of the last step. Unit: halvings. Too small: the limit position has few
@@ -297,7 +299,7 @@ pub(crate) const LIMIT_ARRIVED: f64 = 1e-11;
 pub(crate) const LIMIT_HALVINGS: usize = 40;
 
 /// Components of drives, time and curvatures below this share of the largest one are rounding.
-/// Unit: share. Too small: rounding counts as a drive. Too large: a drive is omitted. Test:
+/// Unit: share. Too small: a rounding error counts as a drive. Too large: a drive is omitted. Test:
 /// `branches_that_meet_are_no_limit`.
 pub(crate) const LIMIT_ROUNDING: f64 = 1e-6;
 
@@ -320,7 +322,7 @@ pub(crate) const DRIVE_POSITIONS: u32 = 12;
 /// `agreeing_motors_are_followed_through_flat_poses`.
 pub(crate) const STRIDE: f64 = 0.1;
 
-/// Maximum number of steps along the motion. They suffice for a dozen revolutions; later
+/// Maximum number of steps along the motion. These steps suffice for a dozen revolutions; later
 /// contradictions are not found. Unit: steps. Too small: contradictions after few revolutions are
 /// not found. Too large: the analysis takes longer. Test:
 /// `agreeing_motors_are_followed_through_flat_poses`.
@@ -333,9 +335,9 @@ pub(crate) const DRIVE_STEPS: usize = 800;
 pub(crate) const DRIVE_HALVINGS: usize = 6;
 
 /// If drives differ by more than this share of their terms, a run stops with certainty. (Runs
-/// compare to 1e-11, divided by pivots.) Unit: share of the terms. Too small: rounding counts as a
-/// contradiction. Too large: runs stop because of contradictions that were not reported. Test:
-/// `small_differences_are_told_at_their_time`.
+/// compare to 1e-11, divided by pivots.) Unit: share of the terms. Too small: a rounding error
+/// counts as a contradiction. Too large: runs stop because of contradictions that were not
+/// reported. Test: `small_differences_are_told_at_their_time`.
 pub(crate) const RUNS_NOTICE: f64 = 1e-9;
 
 // Analysis along a motion.
@@ -380,7 +382,7 @@ pub(crate) const REGULAR_SAMPLE: f64 = 0.1;
 pub(crate) const FINER: u8 = 16;
 
 /// A sign change belongs to a singular configuration if σ_r is below this value there. Otherwise
-/// the rows or the frame have rotated. Unit: singular value of a matrix of size one. Too small:
+/// the rows or the frame have rotated. Unit: singular value of a matrix of norm one. Too small:
 /// singular configurations are missed. Too large: rotations of rows count as singular
 /// configurations. Test: `every_flat_pose_and_every_upright_one_of_several_turns`.
 pub(crate) const SINGULAR_INSTANT: f64 = 1e-6;
@@ -413,8 +415,8 @@ pub(crate) const BENT: f64 = 2.0;
 pub(crate) const BESIDE_PASSAGE: f64 = 1e-2;
 
 /// A minimum must be below this share of the larger one of its neighbours. Unit: share of the
-/// larger neighbour. Too small: shallow minima are missed. Too large: rounding counts as a minimum.
-/// Test: `a_minimum_lies_a_hundredth_below_a_neighbour`.
+/// larger neighbour. Too small: shallow minima are missed. Too large: a rounding error counts as a
+/// minimum. Test: `a_minimum_lies_a_hundredth_below_a_neighbour`.
 pub(crate) const MINIMUM_LOWER: f64 = 0.99;
 
 /// Number of printed digits of a time that a search has found. The accuracy of such a time is that
@@ -424,7 +426,7 @@ pub(crate) const MINIMUM_LOWER: f64 = 0.99;
 pub(crate) const SEARCHED_DIGITS: usize = 7;
 
 /// Number of printed digits of a time that follows from a function of the scene. Unit: digits. Too
-/// small: different times look the same. Too large: digits of rounding are printed. Test:
+/// small: different times look the same. Too large: inaccurate digits are printed. Test:
 /// `a_rest_in_a_singular_pose_is_a_stretch`.
 pub(crate) const GIVEN_DIGITS: usize = 10;
 
@@ -446,14 +448,14 @@ pub const KERNEL_MAX: usize = 4;
 /// motions are examined. Test: `forms_are_of_a_motion_and_no_rounding`.
 pub(crate) const REGULAR: f64 = 1e-6;
 
-/// Error bound of the coefficients of the forms. Unit: 1. Too small: rounding of the forms counts
-/// as a proof. Too large: blocked motions are undecided. Test:
+/// Error bound of the coefficients of the forms. Unit: 1. Too small: a rounding error of the forms
+/// counts as a proof. Too large: blocked motions are undecided. Test:
 /// `a_proof_contains_the_motion_by_rounding_only`.
 pub(crate) const FORM_NOISE: f64 = 1e-9;
 
-/// G must exceed this multiple of the identity; the combination w has size one. Unit: multiples of
-/// the identity. Too small: rounding counts as a proof. Too large: blocked motions are undecided.
-/// Test: `a_definite_form_blocks_from_its_margin_on`.
+/// G must exceed this multiple of the identity; the combination w has norm one. Unit: multiples of
+/// the identity. Too small: a rounding error counts as a proof. Too large: blocked motions are
+/// undecided. Test: `a_definite_form_blocks_from_its_margin_on`.
 pub(crate) const MARGIN: f64 = 1e-5;
 
 /// Maximum number of corrections of w. Unit: corrections. Too small: blocked motions are undecided.
@@ -474,15 +476,16 @@ pub(crate) const BOXES: usize = 100_000;
 /// `nearly_common_zeros_are_told_apart`.
 pub(crate) const BOX_HALVINGS: i32 = 50;
 
-/// A form is a combination of the others if its remainder is below this multiple of the error of
-/// its coefficients. Unit: errors of a coefficient. Too small: combinations of rounding are tried.
-/// Too large: forms that exclude a zero are omitted. Test: `nearly_dependent_forms_are_used`.
+/// A quadratic form counts as a combination of other forms if the remainder is below this multiple
+/// of the error of its coefficients. Unit: multiples of the error of a coefficient. Too small:
+/// combinations of rounding are tried. Too large: forms that exclude a zero are omitted. Test:
+/// `nearly_dependent_forms_are_used`.
 pub(crate) const DEPENDENT_FORMS: f64 = 1e3;
 
 /// The remainder of a form is rounding if it is below this multiple of the error of its
-/// coefficients, for each unknown. Unit: errors of a coefficient. Too small: dependent forms leave
-/// zeros undecided. Too large: a zero of the other forms counts as a zero of a form that does not
-/// have it. Test: `a_form_above_its_error_is_no_rounding`.
+/// coefficients, for each unknown. Unit: multiples of the error of a coefficient. Too small:
+/// dependent forms leave zeros undecided. Too large: a zero of the other forms counts as a zero of
+/// a form that does not have it. Test: `a_form_above_its_error_is_no_rounding`.
 pub(crate) const FORMS_OF_ROUNDING: f64 = 8.0;
 
 /// Number of starts of the search for a transversal zero. Unit: starts. Too small: free motions are
@@ -490,8 +493,8 @@ pub(crate) const FORMS_OF_ROUNDING: f64 = 8.0;
 pub(crate) const TRANSVERSAL_STARTS: usize = 60;
 
 /// A singular value of a projection is one or zero. A computed value above this limit is one.
-/// Unit: 1. Too small: rounding counts as a set of bodies. Too large: a set of bodies is omitted.
-/// Test: `a_blocked_freedom_beside_many_others`.
+/// Unit: 1. Too small: a rounding error counts as a set of bodies. Too large: a set of bodies is
+/// omitted. Test: `a_blocked_freedom_beside_many_others`.
 pub(crate) const OWN_SHARE: f64 = 0.5;
 
 /// Number of iterations from one start. Convergence to a simple solution is quadratic. Unit:
@@ -519,32 +522,32 @@ pub(crate) const BRANCH_STARTS: usize = 40;
 /// `branches_nearer_than_a_thousandth_are_one`.
 pub(crate) const SAME_BRANCH: f64 = 1e-6;
 
-/// A coefficient is a sum of terms. Below this share of its terms it is rounding. Unit: share of
-/// the terms. Too small: rounding counts as a coefficient. Too large: small coefficients count as
-/// zero. Test: `forms_are_of_a_motion_and_no_rounding`.
+/// A coefficient is a sum of terms. A sum below this share of its terms is a rounding error. Unit:
+/// share of the terms. Too small: a rounding error counts as a coefficient. Too large: small
+/// coefficients count as zero. Test: `forms_are_of_a_motion_and_no_rounding`.
 pub(crate) const FORM_ROUNDING: f64 = 1e-10;
 
 /// Bodies with a smaller velocity are at rest. Unit: m/s, or the rate of rotation that moves a
-/// point of the mechanism by as much. Too small: rounding of velocities counts as a motion, and
-/// finite reactions are undecided. Too large: moving bodies are reported to have no finite
+/// point of the mechanism by as much. Too small: a rounding error of velocities counts as a motion,
+/// and finite reactions are undecided. Too large: moving bodies are reported to have no finite
 /// reaction. Test: `bodies_that_move_are_undecided`.
 pub(crate) const AT_REST_SPEED: f64 = 1e-12;
 
 /// Loads do work along a freedom if the sum of their terms exceeds this share of the terms. Unit:
-/// share of the terms. Too small: rounding of loads that cancel counts as a load. Too large: small
-/// loads are ignored. Test: `loads_that_cancel_do_not_push`.
+/// share of the terms. Too small: the rounding error of loads that cancel counts as a load. Too
+/// large: small loads are ignored. Test: `loads_that_cancel_do_not_push`.
 pub(crate) const PUSHES: f64 = 1e-9;
 
 /// Forces of a load below this share of its largest force are rounding. For example, gravity has no
-/// moment about rods that meet at a centre of mass. Unit: share of the largest force. Too small:
-/// rounding counts as a load. Too large: small loads are ignored. Test:
+/// moment about rods that meet at a centre of mass. Unit: share of the largest force. Too small: a
+/// rounding error counts as a load. Too large: small loads are ignored. Test:
 /// `rods_that_meet_at_the_centre_of_mass_carry_it`.
 pub(crate) const ROUNDING_PUSH: f64 = 1e-12;
 
 // Freedoms.
 
 /// Maximum number of reported motions. Further motions are only counted. Unit: motions. Too small:
-/// motions are only counted. Too large: the report is too long to read. Test:
+/// motions are counted, but not described. Too large: the report is too long to read. Test:
 /// `of_many_motions_the_first_are_told`.
 pub const MOTIONS_REPORTED: usize = 12;
 
@@ -556,13 +559,13 @@ pub(crate) const SATISFIED: f64 = 1e-9;
 
 /// A velocity of length one is new if it differs from the chosen ones by more than this. The limit
 /// exceeds [`SATISFIED`], so that the rounding errors of several conditions do not count as a free
-/// motion. Unit: velocity of length one. Too small: rounding counts as a freedom. Too large:
-/// freedoms are missed. Test: `links_of_a_chain_turn_about_their_own_joints`.
+/// motion. Unit: velocity of length one. Too small: a rounding error counts as a freedom. Too
+/// large: freedoms are missed. Test: `links_of_a_chain_turn_about_their_own_joints`.
 pub(crate) const NEW_MOTION: f64 = 1e-6;
 
 /// A velocity below this share of the fastest one is zero; rotations are multiplied by the size of
 /// the mechanism. The limit covers rounding of a null space. Unit: share of the fastest velocity.
-/// Too small: rounding counts as a motion. Too large: slow bodies count as resting. Test:
+/// Too small: a rounding error counts as a motion. Too large: slow bodies count as resting. Test:
 /// `slides_on_slides_move_along_their_axes`.
 pub(crate) const AT_REST: f64 = 1e-10;
 
@@ -574,15 +577,16 @@ pub(crate) const TRIALS: usize = 2_000_000;
 
 // Reactions of a choice, and sensitivity.
 
-/// Error of a number, in roundings of the largest multiplier, each scaled by its row. Unit:
-/// roundings of the largest multiplier. Too small: rounding is printed. Too large: correct digits
-/// are not printed. Test: `what_two_roundings_leave_is_zero_and_more_is_not`.
+/// Error of a number, in rounding errors of the largest multiplier, each scaled by its row. Unit:
+/// multiples of the rounding error of the largest multiplier. Too small: rounding errors are
+/// printed. Too large: correct digits are not printed. Test:
+/// `what_two_roundings_leave_is_zero_and_more_is_not`.
 pub(crate) const VALUE_ROUNDINGS: f64 = 4.0;
 
-/// Redundant accelerations agree if they differ by less than this share of their terms. This is the
-/// rounding of velocities that satisfy the constraints, with a margin. Unit: share of the terms.
-/// Too small: rounding counts as a contradiction. Too large: inconsistent equations are solved.
-/// Test: `three_cranks_with_least_norm`.
+/// Redundant accelerations agree if they differ by less than this share of their terms. The limit
+/// is the rounding error of velocities that satisfy the constraints, with a margin. Unit: share of
+/// the terms. Too small: a rounding error counts as a contradiction. Too large: inconsistent
+/// equations are solved. Test: `three_cranks_with_least_norm`.
 pub(crate) const AGREEMENT: f64 = 1e-9;
 
 /// Number of solutions of the linear system. The first solution contains rounding, and the second
@@ -592,14 +596,14 @@ pub(crate) const CHOICE_SOLVES: usize = 2;
 
 /// Displacement of a datum for sensitivities. A point moves by this share of the size of the
 /// mechanism (in long chains: of the size of its links), and a direction rotates by as many
-/// radians. A good workshop achieves this accuracy. Unit: share of the size, or rad. Too small:
-/// reactions that are sensitive to data are not found. Too large: all reactions count as sensitive.
-/// Test: `a_beam_by_hand`.
+/// radians. A good workshop achieves this accuracy. Unit: share of the size of the mechanism, or
+/// rad. Too small: reactions that are sensitive to data are not found. Too large: all reactions
+/// count as sensitive. Test: `a_beam_by_hand`.
 pub const MOVED: f64 = 1e-4;
 
-/// If the smallest singular value of the independent rows (of length one) exceeds this limit, the
-/// first order suffices for displacements of [`MOVED`]. Unit: singular value. Too small: the
-/// printed changes near limit positions are too small. Too large: the computation takes longer.
+/// If the smallest singular value of the independent rows (scaled to length one) exceeds this
+/// limit, the first order suffices for displacements of [`MOVED`]. Unit: singular value. Too small:
+/// the printed changes near limit positions are too small. Too large: the computation takes longer.
 /// Test: `near_its_limit_a_reaction_changes_by_more_than_first_order`.
 pub(crate) const NEAR_LIMIT: f64 = 5e-2;
 
@@ -639,8 +643,8 @@ pub(crate) const FOLLOWED_WORK: usize = 1_000_000_000;
 pub(crate) const FOLLOW_STEPS: usize = 8;
 
 /// Share of the displacement in the first step, which shows how fast the bodies move. Unit: share.
-/// Too small: rounding determines their speed. Too large: a jump of the speed is not noticed. Test:
-/// `near_its_limit_a_reaction_changes_by_more_than_first_order`.
+/// Too small: a rounding error determines the speed of the bodies. Too large: a jump of the speed
+/// is not noticed. Test: `near_its_limit_a_reaction_changes_by_more_than_first_order`.
 pub(crate) const FOLLOW_FIRST: f64 = 1e-3;
 
 /// A step has left the branch if it moves the bodies by more than this multiple of the previous
@@ -654,8 +658,8 @@ pub(crate) const FOLLOW_JUMP: f64 = 4.0;
 /// `near_its_limit_a_reaction_changes_by_more_than_first_order`.
 pub(crate) const FOLLOW_CORRECTIONS: usize = 12;
 
-/// The iteration ends if a correction is below this value. Unit: share of the size. Too small:
-/// rounding is corrected. Too large: reactions lose digits. Test:
+/// The iteration ends if a correction is below this value. Unit: share of the size of the
+/// mechanism. Too small: rounding errors are corrected. Too large: reactions lose digits. Test:
 /// `near_its_limit_a_reaction_changes_by_more_than_first_order`.
 pub(crate) const FOLLOW_END: f64 = 1e-11;
 
@@ -666,15 +670,15 @@ pub const FRAGILE: f64 = 0.1;
 
 /// Step of the difference quotients for the directions of rows and the reference points of joints,
 /// which change with the configuration and the data. Rounding and the square of the step are both
-/// far below the changes that a sensitivity shows. Unit: share of the size, or rad. Too small:
-/// rounding counts as a change. Too large: second-order terms distort the result. Test:
-/// `numbers_change_as_those_of_mechanisms_built_with_other_data`.
+/// far below the changes that a sensitivity shows. Unit: share of the size of the mechanism, or
+/// rad. Too small: a rounding error counts as a change. Too large: second-order terms distort the
+/// result. Test: `numbers_change_as_those_of_mechanisms_built_with_other_data`.
 pub(crate) const SLOPE_STEP: f64 = 1e-5;
 
 /// If a reaction changes by this share of its size or more, the first order does not show how large
-/// the change is. It only shows that no digit of the reaction is correct. Unit: share of the
-/// reaction. Too small: estimates of the first order are omitted. Too large: estimates outside the
-/// range of the first order are printed. Test: `sentences_are_for_people`.
+/// the change is. The estimate only shows that no digit of the reaction is correct. Unit: share of
+/// the reaction. Too small: estimates of the first order are omitted. Too large: estimates outside
+/// the range of the first order are printed. Test: `sentences_are_for_people`.
 pub(crate) const BEYOND: f64 = 1.0;
 
 /// From this factor upwards, "several times" would understate the change. Unit: 1. Too small:
@@ -682,16 +686,16 @@ pub(crate) const BEYOND: f64 = 1.0;
 pub(crate) const MANY: f64 = 30.0;
 
 /// A load below this share of m·v²/size is the rounding of a motion without loads. The load
-/// m·v²/size stops the bodies within the size of the mechanism. Unit: share of what stops the
-/// bodies. Too small: rounding counts as a load. Too large: small loads count as zero. Test:
-/// `a_small_load_beside_a_fast_motion_is_a_load`.
+/// m·v²/size stops the bodies within the size of the mechanism. Unit: share of the speed that stops
+/// the bodies. Too small: a rounding error counts as a load. Too large: small loads count as zero.
+/// Test: `a_small_load_beside_a_fast_motion_is_a_load`.
 pub(crate) const LOAD_ROUNDING: f64 = 1e-9;
 
 /// Points move by a share of the size of the mechanism, but at most by the same share of this
 /// multiple of the reach of the bodies that they join. A chain of a hundred links is manufactured
 /// link by link, so the errors of its holes are not a hundred times larger. The limit has no effect
-/// on mechanisms of a few bodies. Unit: reaches of the bodies. Too small: short chains are analysed
-/// link by link. Too large: long chains count as sensitive. Test:
+/// on mechanisms of a few bodies. Unit: multiples of the largest distance of the bodies. Too small:
+/// short chains are analysed link by link. Too large: long chains count as sensitive. Test:
 /// `sensitivities_are_those_of_mechanisms_built_with_other_numbers`.
 pub(crate) const PIECE: f64 = 20.0;
 
@@ -732,15 +736,15 @@ pub(crate) const DENSE_MATRICES: usize = 16;
 pub(crate) const CERTIFIED_MATRICES: usize = 9;
 
 /// Largest distance of a reported point about which the moment of free wrenches vanishes. Free
-/// wrenches that are couples except for rounding have such a point at infinity. Unit: sizes of the
-/// mechanism. Too small: a centre outside the mechanism is not printed. Too large: points without
-/// practical interest are printed. Test: `a_couple_has_no_centre`.
+/// wrenches that are couples except for rounding have such a point at infinity. Unit: multiples of
+/// the size of the mechanism. Too small: a centre outside the mechanism is not printed. Too large:
+/// points without practical interest are printed. Test: `a_couple_has_no_centre`.
 pub(crate) const FAR_CENTRE: f64 = 100.0;
 
-/// Forces of free wrenches below this share of the largest one are rounding. They are not used to
-/// compute the point about which the moment vanishes. Unit: share of the largest singular value.
-/// Too small: points lie at random on a line of action. Too large: points do not belong to the
-/// wrenches. Test: `points_of_a_line_are_the_nearest`.
+/// Forces of free wrenches below this share of the largest one are rounding. Such forces are not
+/// used to compute the point about which the moment vanishes. Unit: share of the largest singular
+/// value. Too small: points lie at random on a line of action. Too large: points do not belong to
+/// the wrenches. Test: `points_of_a_line_are_the_nearest`.
 pub(crate) const FREE_FORCE: f64 = 1e-9;
 
 /// Smallest pivot, as a share of the largest remaining entry, in the computation of readable bases
@@ -752,13 +756,13 @@ pub(crate) const SHARE_OF_PIVOT: f64 = 0.1;
 
 /// A component of a self-stress below this share of its largest component is zero, in drawings and
 /// in sentences. Such a component is rounding of the dependence. Unit: share of the largest number.
-/// Too small: rounding is shown. Too large: small numbers are not shown. Test:
+/// Too small: rounding errors are shown. Too large: small numbers are not shown. Test:
 /// `far_axes_and_translations_are_told_apart`.
 pub(crate) const VISIBLE: f64 = 1e-9;
 
 /// Two bodies move together, or a joint is at a point, if they differ by less than this share of
-/// the size of the mechanism. The limit is above the rounding of a null space and below any
-/// distance between joints that a drawing shows. Unit: share of the size. Too small: one point
+/// the size of the mechanism. The limit is above the rounding error of a null space and below any
+/// distance of joints in a drawing. Unit: share of the size of the mechanism. Too small: one point
 /// counts as two. Too large: two points count as one. Test:
 /// `a_four_bar_moves_without_its_motor_only`.
 pub(crate) const SAME_PLACE: f64 = 1e-6;
@@ -774,8 +778,8 @@ pub(crate) const TOLD_MOVEMENTS: usize = 3;
 /// read. Test: `few_different_loads_are_told_joint_by_joint`.
 pub(crate) const TOLD_LOADS: usize = 3;
 
-/// Maximum number of bodies that a sentence names. Unit: bodies. Too small: bodies are only
-/// counted. Too large: the sentences are too long to read. Test:
+/// Maximum number of bodies that a sentence names. Unit: bodies. Too small: bodies are counted, but
+/// not named. Too large: the sentences are too long to read. Test:
 /// `links_of_a_chain_turn_about_their_own_joints`.
 pub(crate) const NAMED_BODIES: usize = 6;
 
@@ -791,27 +795,28 @@ pub(crate) const FIRST_NAMED: usize = 3;
 pub(crate) const MANY_LOADS: usize = 5;
 
 /// Maximum number of rows that a label lists completely. For more rows it names only the first few.
-/// Unit: rows. Too small: rows are only counted. Too large: the labels are too long to read. Test:
-/// `eliminations_of_the_robot_are_runs_without_these_rows`.
+/// Unit: rows. Too small: rows are counted, but not named. Too large: the labels are too long to
+/// read. Test: `eliminations_of_the_robot_are_runs_without_these_rows`.
 pub(crate) const NAMED_ROWS: usize = 12;
 
-/// Maximum number of rows that a sentence lists. Unit: rows. Too small: rows are only counted. Too
-/// large: the sentences are too long to read. Test: `every_answer_is_that_of_its_session`.
+/// Maximum number of rows that a sentence lists. Unit: rows. Too small: rows are counted, but not
+/// named. Too large: the sentences are too long to read. Test:
+/// `every_answer_is_that_of_its_session`.
 pub(crate) const TELLABLE: usize = 8;
 
 /// Minor, or component of a load, of a self-stress that counts as zero, relative to its rows. Unit:
-/// dimensionless. Too small: rounding makes sets of components that cannot be zero together. Too
-/// large: weak self-stresses are ignored. Test: `a_weak_component_is_undecided`.
+/// dimensionless. Too small: rounding errors create sets of components that cannot be zero
+/// together. Too large: weak self-stresses are ignored. Test: `a_weak_component_is_undecided`.
 pub(crate) const ZERO_MINOR: f64 = 1e-10;
 
 /// Minor of a self-stress that is certainly not zero, relative to its rows. Unit: dimensionless.
-/// Too small: bounds depend on rounding. Too large: bounds of weak self-stresses are refused. Test:
-/// `a_weak_component_is_undecided`.
+/// Too small: bounds depend on rounding. Too large: bounds of weak self-stresses are rejected.
+/// Test: `a_weak_component_is_undecided`.
 pub(crate) const CLEAR_MINOR: f64 = 1e-7;
 
 /// Factor between the accuracy of coefficients and a coefficient that is certainly not zero. Unit:
 /// dimensionless. Too small: bounds depend on the accuracy of the data. Too large: bounds within a
-/// tolerance are refused. Test: `a_weak_component_is_undecided`.
+/// tolerance are rejected. Test: `a_weak_component_is_undecided`.
 pub(crate) const CLEAR_OF_ZERO: f64 = 10.0;
 
 /// Maximum number of sets of components that are examined for bounds. Unit: sets. Too small: small
@@ -866,7 +871,7 @@ pub(crate) const CORNER_POINTS: usize = 1_000_000;
 pub(crate) const TIED_ENDS: f64 = 1e-12;
 
 /// Weight or squared residual that counts as zero in the test of vertices. Unit: dimensionless. Too
-/// small: rounding makes vertices. Too large: vertices are not found. Test:
+/// small: rounding errors create vertices. Too large: vertices are not found. Test:
 /// `vertices_are_separated_and_midpoints_are_not`.
 pub(crate) const SEPARATED: f64 = 1e-9;
 
@@ -875,8 +880,8 @@ pub(crate) const SEPARATED: f64 = 1e-9;
 pub(crate) const SEPARATION_STEPS: usize = 1000;
 
 /// Part of a row outside of the rows of another joint that counts as zero, relative to the row.
-/// Unit: dimensionless. Too small: rounding hides weaker joints. Too large: a joint that restricts
-/// another motion counts as weaker. Test: `a_weaker_joint_restricts_no_other_motion`.
+/// Unit: dimensionless. Too small: rounding errors hide weaker joints. Too large: a joint that
+/// restricts another motion counts as weaker. Test: `a_weaker_joint_restricts_no_other_motion`.
 pub(crate) const SAME_SPAN: f64 = 1e-9;
 
 /// Part of a released load component that is independent of the other released components,
@@ -895,6 +900,53 @@ pub(crate) const REPLACEMENT_STEPS: usize = 100_000;
 pub(crate) const REPLACEMENT_WAYS: usize = 3;
 
 /// Difference of two measures of independence that count as equal. Unit: natural logarithm. Too
-/// small: rounding decides which of two equal sets of replacements comes first. Too large: the
-/// first set is less clearly independent than another one. Test: `equal_sets_keep_their_order`.
+/// small: a rounding error decides which of two equal sets of replacements comes first. Too large:
+/// the first set is less clearly independent than another one. Test: `equal_sets_keep_their_order`.
 pub(crate) const TIED_CLEARNESS: f64 = 1e-6;
+
+/// Force of a support, or weight in a proof, that counts as zero. Unit: share of the size of the
+/// loads, of the largest acceleration or of the largest weight. Too small: a load exactly above an
+/// edge of a table has no admissible reactions. Too large: supports that lift slowly count as
+/// closed. Test: `a_load_above_an_edge_is_not_outside`.
+pub(crate) const SUPPORT_ROUNDING: f64 = 1e-12;
+
+/// Force of a support that is certainly not zero. Unit: share of the size of the loads, or of the
+/// largest acceleration. Too small: rounding decides which supports lift. Too large: small loads
+/// beyond an edge are undecided. Test: `a_load_above_an_edge_is_not_outside`.
+pub(crate) const CLEAR_SUPPORT: f64 = 1e-9;
+
+/// Force with which a contact pulls that is certainly not zero. A motion is less accurate than its
+/// start. Unit: share of the largest load. Too small: a contact without load is said to pull. Too
+/// large: a contact that begins to pull is reported late. Test:
+/// `contacts_that_pull_are_one_warning`.
+pub(crate) const CLEAR_PULL: f64 = 1e-6;
+
+/// Maximum number of changes of the set of supports that carry a load. Unit: steps. Too small:
+/// mechanisms with many supports have no range. Too large: a search that rounding errors keep from
+/// its end takes long. Test: none, work only.
+pub(crate) const PIVOTS: usize = 10_000;
+
+/// Acceleration of a gap that counts as zero, relative to the largest one without pressing forces
+/// or without any other joint. Unit: dimensionless. Too small: contacts that stay closed are said
+/// to open. Too large: a contact that opens slowly is not named. Test:
+/// `a_load_beyond_the_edge_lifts_two_legs`.
+pub(crate) const OPENING: f64 = 1e-9;
+
+/// Number of sides of the polygons that stand for the circle of a contact that grips in two
+/// directions. Unit: sides. Too small: the least friction is known to few digits. Too large: the
+/// linear programs take long. Test: `a_wheel_grips_in_all_directions`.
+pub(crate) const GRIP_SIDES: u32 = 32;
+
+/// Accuracy of the least coefficient of friction. Unit: dimensionless. Too small: it takes long,
+/// and rounding decides. Too large: the coefficient differs from that of textbooks. Test:
+/// `a_ladder_holds_with_the_friction_of_textbooks`.
+pub(crate) const GRIP_ACCURACY: f64 = 1e-10;
+
+/// Largest coefficient of friction that is examined. Unit: dimensionless. Too small: a contact on a
+/// steep slope is said to slip with any friction. Too large: it takes long. Test: none, work only.
+pub(crate) const LARGEST_FRICTION: f64 = 1e6;
+
+/// Part of the force of a row across other rows of its contact that counts as zero. Unit:
+/// dimensionless. Too small: rounding makes a direction of slip. Too large: directions close to
+/// each other count as one. Test: `a_wheel_grips_in_all_directions`.
+pub(crate) const PARALLEL_SLIP: f64 = 1e-9;

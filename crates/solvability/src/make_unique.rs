@@ -1,9 +1,10 @@
 //! Finds rows to delete so that a given reaction becomes unique and the motion does not change.
 //!
 //! The uniqueness then follows from a decision of the designer, who assumes that these rows carry
-//! no load. It is not a result of the model. The rule for proposals: any row may be relaxed as long
-//! as its joint keeps one row (a revolute becomes a pin in a slot). A joint or drive with a single
-//! row may be deleted. If such deletions do not suffice, whole joints may be deleted as well.
+//! no load. Such a uniqueness is not a result of the model. The rule for proposals: any row may be
+//! relaxed as long as its joint keeps one row (a revolute becomes a pin in a slot). A joint or
+//! drive with a single row may be deleted. If such deletions do not suffice, whole joints may be
+//! deleted as well.
 
 use linalg::Matrix;
 use model::{ConstraintId, ConstraintKind, Layout, Mechanism, RowRanges, System};
@@ -41,8 +42,8 @@ pub struct Proposal {
 #[non_exhaustive]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Proposals {
-    /// The proposals. Each is sufficient by itself, and none of its rows can be omitted. Empty if
-    /// no allowed deletion is sufficient.
+    /// The proposals. Each proposal is sufficient by itself, and each of its rows is needed. Empty
+    /// if no allowed deletion is sufficient.
     pub ways: Vec<Proposal>,
     /// Whether all proposals of that size are listed.
     pub complete: bool,

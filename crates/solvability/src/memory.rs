@@ -34,7 +34,8 @@ impl VerdictMemory {
 
 /// Estimates the memory of a mechanism with its ranks, independent rows and verdicts on this number
 /// of threads. The estimate is proportional to the numbers of its velocities, its joints, drives
-/// and couplings, its rows and their entries. It also includes the matrices of the largest parts.
+/// and couplings, its rows and their entries. The estimate also includes the matrices of the
+/// largest parts.
 ///
 /// # Errors
 /// [`AnalysisError::Large`]: the rows are too densely connected for a sparse decision.

@@ -224,10 +224,10 @@ pub struct PartAnalysis {
     pub without_drives: Option<WithoutDrives>,
     /// Rank and independent (kept) rows of C; rows are numbered in the part.
     pub decision: PartDecision,
-    /// The proof of the rank. It is also present if the caller chose the redundant rows.
+    /// The proof of the rank. The proof is also present if the caller chose the redundant rows.
     pub certificate: Option<Certificate>,
-    /// Independent rows that are nearly dependent. Always `None` in parts that are decided with
-    /// sparse matrices.
+    /// Independent rows that are nearly dependent. `None` for parts of a mechanism that are decided
+    /// with sparse matrices.
     pub nearly_redundant: Option<NearlyRedundant>,
 }
 

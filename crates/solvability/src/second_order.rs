@@ -44,12 +44,12 @@ pub enum Continuation {
     /// Other velocities are compatible to second order: the constraints do not determine on which
     /// branch the mechanism continues.
     Bifurcation {
-        /// Velocities of other branches, n_v values each. Without drives they are as fast as the
-        /// motion, and may be reversed. If a branch has several degrees of freedom, these are
-        /// examples.
+        /// Velocities of other branches, n_v values each. Without drives, the new motions are as
+        /// fast as the given motion and may be reversed. If a branch has several degrees of
+        /// freedom, these are examples.
         branches: Vec<Vec<f64>>,
     },
-    /// Second order does not decide.
+    /// The conditions of second order do not decide whether a motion exists.
     Undetermined(SecondOrderDoubt),
 }
 

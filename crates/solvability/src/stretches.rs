@@ -6,7 +6,7 @@
 //! intervals at its events and at break times. On an interval the verdict is
 //!
 //! - unique if it is unique at every examined instant inside,
-//! - not unique if it is not unique at one of these instants,
+//! - not unique if the component is not unique at one of these instants,
 //! - undecided otherwise.
 //!
 //! Instants with a different verdict are special: they are listed, but do not affect the verdict on

@@ -48,8 +48,8 @@ enum Number {
     Chosen { value: f64, by: Label },
     /// The number is omitted, because it would belong to one of many solutions.
     Open,
-    /// There is no number, for every verdict and choice. The equations have solutions, but the
-    /// motion does not have finite reactions, or their existence is undecided.
+    /// No verdict and no choice has a number. The equations have solutions, but the motion does not
+    /// have finite reactions, or their existence is undecided.
     NotFinite(Arc<NoFiniteReaction>),
 }
 

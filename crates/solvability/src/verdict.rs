@@ -130,10 +130,10 @@ impl Judgement {
     }
 }
 
-/// Returns the verdict on all judgements together: not unique if one is not unique, otherwise
-/// undecided if one is undecided. Among equal verdicts, the one with the largest margin counts (NaN
-/// is the largest). Margins of different verdicts cannot be compared, because each was compared
-/// with its own noise.
+/// Returns the common verdict: not unique if one of the verdicts is not unique, otherwise undecided
+/// if one is undecided. Among equal verdicts, the one with the largest margin counts (NaN is the
+/// largest). Margins of different verdicts cannot be compared, because each was compared with its
+/// own noise.
 pub(crate) fn worst(judgements: impl Iterator<Item = Judgement>) -> Option<Judgement> {
     let severity = |j: &Judgement| j.verdict.severity();
     let mut within_tolerance = false;

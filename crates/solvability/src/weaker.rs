@@ -37,16 +37,16 @@ pub struct WeakerJoint {
     released: Vec<Vec<f64>>,
 }
 
-/// Coupled joints, and the replacements that make all of their reactions unique.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct ReplacedJoints {
-    /// The joints and drives whose reactions are coupled.
-    pub coupled: Vec<ConstraintId>,
-    /// Number of their load components that equilibrium does not determine.
+/// Joints and drives whose reactions are coupled.
+#[derive(Clone, Debug, PartialEq)]
+pub struct CoupledJoints {
+    /// The joints and drives.
+    pub joints: Vec<ConstraintId>,
+    /// Number of their load components that equilibrium does not determine. A weaker joint that
+    /// releases more components changes the motion.
     pub redundancy: usize,
-    /// Sets of replacements, the cheapest first, as indices of the list of the caller. Each set is
-    /// sufficient by itself. The list is empty if no set was found.
-    pub ways: Vec<Vec<usize>>,
+    /// Orthonormal basis of the free multipliers that change their reactions.
+    basis: Vec<Vec<f64>>,
 }
 
 /// Finds replacements of joints at one configuration of a mechanism.
@@ -55,6 +55,7 @@ pub struct Replacements<'q, 'm> {
     q: &'q [f64],
     /// Dimensionless C.
     c: Matrix,
+    free: FreeMultipliers<'q>,
 }
 
 impl<'q, 'm> Replacements<'q, 'm> {
@@ -66,6 +67,7 @@ impl<'q, 'm> Replacements<'q, 'm> {
             configuration,
             q,
             c,
+            free: FreeMultipliers::of(configuration.solvability()),
         }
     }
 
@@ -99,48 +101,64 @@ impl<'q, 'm> Replacements<'q, 'm> {
         joints.iter().filter_map(released).collect()
     }
 
-    /// Finds replacements of joints that make all of their reactions unique and do not change the
-    /// motion. At most one of the weaker joints of each joint is used. The cost of a set is the sum
-    /// of the costs of its weaker joints.
+    /// Returns the sets of coupled joints and drives.
     #[must_use]
-    pub fn cheapest(&self, weaker: &[(WeakerJoint, usize)]) -> Vec<ReplacedJoints> {
-        let free = FreeMultipliers::of(self.configuration.solvability());
+    pub fn coupled(&self) -> Vec<CoupledJoints> {
         let layout = self.configuration.layout();
-        let of_coupled = |coupled: Vec<ConstraintId>| {
-            let z = coupled.iter().flat_map(|id| rows(&free.z, layout, *id));
+        let sets = coupled(layout, &self.free).into_iter();
+        let set = |joints: Vec<ConstraintId>| {
+            let z = joints.iter().flat_map(|id| rows(&self.free.z, layout, *id));
             let mut basis = Vec::new();
             extend(&mut basis, &z.collect::<Vec<_>>(), CLEARLY_RELEASED);
-            // A load component as a function of the free multipliers, relative to the size of its
-            // terms.
-            let form = |id: ConstraintId, direction: &Vec<f64>| {
-                let own = || layout.groups[id.0].rows.iter();
-                let share = |row: usize| dot(self.c.row(row), direction) * free.row_factor[row];
-                let shares = unit(&own().map(share).collect::<Vec<f64>>());
-                let mut form = vec![0.0; free.z.ncols()];
-                for (row, share) in own().zip(&shares) {
-                    axpy(*share, free.z.row(row), &mut form);
-                }
-                basis.iter().map(|column| dot(&form, column)).collect()
-            };
-            let candidates = |id: &ConstraintId| {
-                let own = weaker.iter().enumerate();
-                let own = own.filter(|(_, (weaker, _))| weaker.joint == *id);
-                let candidate =
-                    |(index, (weaker, cost)): (usize, &(WeakerJoint, usize))| Candidate {
-                        index,
-                        forms: weaker.released.iter().map(|d| form(*id, d)).collect(),
-                        cost: *cost,
-                    };
-                own.map(candidate).collect()
-            };
-            ReplacedJoints {
+            CoupledJoints {
                 redundancy: basis.len(),
-                ways: cheapest(coupled.iter().map(candidates).collect(), basis.len()),
-                coupled,
+                joints,
+                basis,
             }
         };
-        let coupled = coupled(layout, &free).into_iter();
-        coupled.map(of_coupled).collect()
+        sets.map(set).collect()
+    }
+
+    /// Finds sets of weaker joints that make all reactions of coupled joints unique and do not
+    /// change the motion. At most one weaker joint replaces each joint. The cost of a set is the
+    /// sum of the costs of its weaker joints, and is less than `below`. The cheapest set comes
+    /// first, as indices of the list of weaker joints. Each set is sufficient by itself. The result
+    /// is empty if no set was found.
+    #[must_use]
+    pub fn cheapest(
+        &self,
+        of: &CoupledJoints,
+        weaker: &[(WeakerJoint, usize)],
+        below: Option<usize>,
+    ) -> Vec<Vec<usize>> {
+        let (layout, free) = (self.configuration.layout(), &self.free);
+        // A load component as a function of the free multipliers, relative to the size of its
+        // terms.
+        let form = |id: ConstraintId, direction: &Vec<f64>| {
+            let own = || layout.groups[id.0].rows.iter();
+            let share = |row: usize| dot(self.c.row(row), direction) * free.row_factor[row];
+            let shares = unit(&own().map(share).collect::<Vec<f64>>());
+            let mut form = vec![0.0; free.z.ncols()];
+            for (row, share) in own().zip(&shares) {
+                axpy(*share, free.z.row(row), &mut form);
+            }
+            of.basis.iter().map(|column| dot(&form, column)).collect()
+        };
+        let candidates = |id: &ConstraintId| {
+            let own = weaker.iter().enumerate();
+            let own = own.filter(|(_, (weaker, _))| weaker.joint == *id);
+            let candidate = |(index, (weaker, cost)): (usize, &(WeakerJoint, usize))| Candidate {
+                index,
+                forms: weaker.released.iter().map(|d| form(*id, d)).collect(),
+                cost: *cost,
+            };
+            own.map(candidate).collect()
+        };
+        cheapest(
+            of.joints.iter().map(candidates).collect(),
+            of.redundancy,
+            below,
+        )
     }
 }
 

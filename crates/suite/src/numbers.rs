@@ -44,7 +44,7 @@ impl Numbers {
     /// # Panics
     /// Panics if low > high.
     pub fn between(&mut self, low: i32, high: i32) -> i32 {
-        assert!(low <= high, "nothing lies between {low} and {high}");
+        assert!(low <= high, "no number lies between {low} and {high}");
         low + self.below((high - low + 1) as usize) as i32
     }
 

@@ -72,7 +72,7 @@ pub enum SaddleError {
     },
     /// Only the null-space solver supports this operation.
     #[error(
-        "{rows} rows with many free motions are solved through the Schur complement, without independent coordinates: take an explicit method on kept rows, with projection"
+        "{rows} rows with many free motions are solved through the Schur complement, without independent coordinates: use an explicit method on kept rows, with projection"
     )]
     Large {
         /// Number of rows.
@@ -122,7 +122,7 @@ pub enum SaddleError {
         change: f64,
     },
     /// The caller used `solve` without a successful `factor`.
-    #[error("nothing is factored: call `factor` and handle its error before `solve`")]
+    #[error("no matrix is factored: call `factor` and handle its error before `solve`")]
     NotFactored,
 }
 

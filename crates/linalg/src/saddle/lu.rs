@@ -35,8 +35,8 @@ pub(super) struct TallLu {
     work: EliminationRow,
 }
 
-/// Rows in use and their pivot coordinates. They are those of the last factorisation while the next
-/// one repeats it.
+/// Rows in use and their pivot coordinates. While a factorisation repeats the previous one, these
+/// rows and coordinates are those of the previous one.
 #[derive(Debug, Clone)]
 struct PivotRows {
     /// For each row in use, its index in C. `pivot` contains its pivot coordinate.
@@ -153,7 +153,8 @@ impl TallLu {
         &self.plan.order
     }
 
-    /// Removes all rows. Chooses their order by these values, if it has not been chosen.
+    /// Removes all rows. Chooses the order of elimination by these values, unless it has already
+    /// been chosen.
     pub(super) fn begin<'c>(&mut self, row: impl Fn(usize) -> &'c [f64]) {
         self.pivot_ratio = f64::INFINITY;
         self.r = 0;
@@ -247,7 +248,8 @@ impl TallLu {
 
     /// Eliminates the row in the buffer with the rows and entries of the last factorisation.
     /// Returns its pivot, the inverse of the pivot, and the size of the largest entry. Returns
-    /// `None` if another coordinate should be the pivot. The buffer is zero in either case.
+    /// `None` if another coordinate should be the pivot. After the call, all values of the buffer
+    /// are zero.
     fn repeat(&mut self, graded: Option<&[f64]>, least: f64) -> Option<[f64; 3]> {
         let j = self.r;
         let x = &mut self.work.x[..];

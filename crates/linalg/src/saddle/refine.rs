@@ -312,8 +312,8 @@ mod tests {
         }
     }
 
-    /// A value that is exactly zero in a plain solution is rounding of double-double numbers in a
-    /// refined one, which must not prevent convergence.
+    /// A value that is exactly zero in a plain solution is a rounding error of double-double
+    /// numbers in a refined solution. This error must not prevent convergence.
     #[test]
     fn unknowns_that_are_zero_do_not_keep_others_waiting() {
         // The first two rows fix x and y. The third and fourth rows connect z and w to them by

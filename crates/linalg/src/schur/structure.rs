@@ -75,7 +75,7 @@ pub(super) struct RowsOfLane {
 }
 
 impl RowsOfLane {
-    /// Returns the values of its rows; padding takes the last value of x.
+    /// Returns the values of its rows; padding repeats the last value of x.
     #[inline(always)]
     pub(super) fn take_from(&self, x: &[f64]) -> Lane {
         self.places.map(|place| x[place as usize])

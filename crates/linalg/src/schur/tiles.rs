@@ -1,5 +1,5 @@
-//! Tiles, which are the 4 × 4 blocks of fronts and factors, and groups of four rows (lanes) for the
-//! columns of elements. Rows are padded with zeros to whole tiles, so that no loop has a remainder,
+//! Blocks of fronts and factors of 4 × 4 entries (tiles), and groups of four rows for the columns
+//! of elements (lanes). Rows are padded with zeros to whole tiles, so that no loop has a remainder,
 //! and the data of a tile stay in registers.
 
 /// Number of rows and columns of a tile.

@@ -52,7 +52,7 @@ pub(crate) struct Spread {
 
 impl Accuracy<'_> {
     /// Returns the equilibration of the significant entries of `c`. Entries that are only rounding
-    /// are not scaled up to size one.
+    /// are not scaled up to norm one.
     ///
     /// # Errors
     /// Returns an error if the uncertainty has another shape than `c`, or is negative or not
@@ -140,7 +140,8 @@ impl Accuracy<'_> {
 mod tests {
     use super::*;
 
-    /// Entries that consist of several roundings of larger terms are not scaled up to size one.
+    /// Entries that consist of several rounding errors of larger terms are not scaled up to norm
+    /// one.
     #[test]
     fn an_entry_near_its_uncertainty_does_not_set_the_scale() {
         let known = Matrix::from_rows(&[[0.0, 0.0], [0.0, 1e-12]]);

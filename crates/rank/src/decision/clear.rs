@@ -6,7 +6,7 @@ use super::{required, tolerance};
 use crate::limits::{CLEARANCE, NOISE_MAX};
 use linalg::{Matrix, singular_values};
 
-/// Result of comparing a value with its noise.
+/// Result of a comparison of a value with its error bound.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Size {
     /// The value is at most the noise, and the noise is at most 1e-4.
@@ -25,9 +25,9 @@ pub(crate) fn size(x: f64, noise: f64) -> Size {
     }
 }
 
-/// Returns whether rows of an equilibrated matrix are certainly independent:
-/// `σ_min ≥ max(10³·τ, 10⁻⁷)`. They are not equilibrated again, because that would enlarge entries
-/// that are only rounding relative to the rest of their row or column.
+/// Returns whether rows of an equilibrated matrix are certainly independent: `σ_min ≥ max(10³·τ,
+/// 10⁻⁷)`. The rows are not equilibrated again, because that would enlarge entries that are only
+/// rounding relative to the rest of their row or column.
 pub(crate) fn independent(rows: &Matrix, uncertainty: f64) -> bool {
     let tolerance = tolerance(rows.nrows(), rows.ncols(), uncertainty);
     rows.nrows() <= rows.ncols()

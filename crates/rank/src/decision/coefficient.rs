@@ -65,7 +65,8 @@ impl RankDecision {
     }
 
     /// Returns whether the entries of the matrix are exact, so that zeros of T are exact as well.
-    /// They are not exact if the rank is that of other data within the accuracy of the given data.
+    /// The entries are not exact if the rank is that of other data within the accuracy of the given
+    /// data.
     #[must_use]
     pub fn is_exact(&self) -> bool {
         let certificate = self.evidence.certificate.as_ref();
@@ -75,9 +76,9 @@ impl RankDecision {
     /// Returns a bound on the absolute error of a coefficient of T̃ or Z: `10·τ/σ_r`, or `s/σ_r`
     /// for a certified rank of a matrix with uncertainty s (Frobenius norm).
     ///
-    /// For exact entries it is only rounding. For a nearly redundant matrix it is the error for the
-    /// stored matrix, `10·‖C_D − T·C_K‖/σ_r`; the effect of the uncertainty of the data is reported
-    /// by [`RankDecision::nearly_redundant`] instead.
+    /// For exact entries the noise consists only of rounding errors. For a nearly redundant matrix
+    /// it is the error for the stored matrix, `10·‖C_D − T·C_K‖/σ_r`; the effect of the uncertainty
+    /// of the data is reported by [`RankDecision::nearly_redundant`] instead.
     #[must_use]
     pub fn coefficient_tolerance(&self) -> f64 {
         let e = &self.evidence;

@@ -1,7 +1,7 @@
 //! The rank of a matrix whose entries are exact.
 //!
 //! The rows are proposed in floating point, and the rank is decided by arithmetic modulo primes.
-//! There is no tolerance, and the result is always decided.
+//! The decision needs no tolerance, and the result is always decided.
 
 use super::certificate::{Certificate, Grounds, NearlyRedundant};
 use super::graded::RowLevels;

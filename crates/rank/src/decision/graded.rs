@@ -17,7 +17,7 @@ use linalg::{Dd, DdMatrix, Matrix, PivotedQr, RowBasis, kernels, powers, singula
 struct Level {
     /// Independent rows, as indices into the whole matrix.
     kept: Vec<usize>,
-    /// S of these rows times 2^exponent (of size one), and its factors.
+    /// S of these rows times 2^exponent (norm about one), and its factors.
     rows: Matrix,
     factored: PivotedQr,
     exponent: i32,
@@ -169,7 +169,7 @@ impl RowLevels {
             .fold(0.0, f64::max)
     }
 
-    /// Returns the rows of all levels so far and of one more, each of size one.
+    /// Returns the rows of all levels so far and of one more, each of norm one.
     fn stacked(&self, levels: usize, last: &Matrix) -> Matrix {
         let before = self.levels[..levels].iter().map(|level| &level.rows);
         let all: Vec<&Matrix> = before.chain([last]).collect();

@@ -14,7 +14,7 @@ pub struct RankDecision {
     pub redundancy: usize,
     /// Independent rows K, ascending; their number is r.
     pub kept: Vec<usize>,
-    /// The other rows D, ascending; their number is p.
+    /// Redundant rows D, ascending; their number is p.
     pub dropped: Vec<usize>,
     /// T̃ = C̃_D·C̃_K⁺ (p×r) between the equilibrated rows: row `dropped[j]` = Σ T̃_ji · row
     /// `kept[i]`. Its entries are at most 2 unless the caller chose the rows.
@@ -134,7 +134,8 @@ pub enum Doubt {
         unit: &'static str,
     },
     /// At this configuration, data within the tolerance have a lower rank. Too few other
-    /// configurations could be examined to decide whether the rank is also lower there.
+    /// configurations could be examined to decide whether the rank is also lower at other
+    /// configurations.
     #[error(
         "with data accurate to {tolerance:.1e} {unit} the rank at this pose is {lower}; at other poses it may be {lower} or {upper}: too few poses can be reached on the remaining rows with sufficient accuracy; move the start, or use more accurate data"
     )]
@@ -150,7 +151,7 @@ pub enum Doubt {
     },
     /// The uncertainty of the data hides rows that are not zero.
     #[error(
-        "singular value {sigma:.3e} is above rounding but below {tolerance:.3e}, the limit set by the uncertainty of the data (matrix of size one): these rows are undecided; place the mechanism nearer to the origin, or use more accurate data"
+        "singular value {sigma:.3e} is above rounding but below {tolerance:.3e}, the limit set by the uncertainty of the data (matrix scaled to norm one): these rows are undecided; place the mechanism nearer to the origin, or use more accurate data"
     )]
     Hidden {
         /// The largest singular value below the tolerance.
@@ -161,7 +162,7 @@ pub enum Doubt {
     /// The tolerance exceeds every singular value of a matrix that is not zero.
     #[error(
         "tolerance {tolerance:.3e} exceeds the largest singular value {sigma_max:.3e} of a non-zero \
-         matrix: the constraint residual is too large to decide anything, polish the point first"
+         matrix: the constraint residual is too large for a decision; polish the point first"
     )]
     NotPolished {
         /// Largest singular value σ₁.

@@ -30,7 +30,7 @@ use linalg::{Dd, DdMatrix, Scaling};
 /// results: exactly redundant (σ_{r+1} ≤ 1e-26, [`Grounds::Vanishes`]); redundant within the data
 /// ([`Grounds::WithinData`]); of full rank although [nearly
 /// redundant](RankDecision::nearly_redundant); or undecided. The result is undecided between τ and
-/// 4·τ, and if τ is above 0.01, because entries of size one would be hidden.
+/// 4·τ, and if τ is above 0.01, because entries of about one would be hidden.
 ///
 /// ```
 /// use linalg::{Dd, DdMatrix, Matrix};
@@ -131,8 +131,8 @@ pub struct RankReading {
     /// Lower limit of the non-zero singular values. A matrix with a smaller nonzero value does not
     /// have this rank.
     pub separation: f64,
-    /// The reason why the other rows are redundant if they do not vanish when the precision is
-    /// doubled.
+    /// Reason why the remaining rows count as redundant although their singular values do not
+    /// vanish at doubled precision.
     pub grounds: Grounds,
 }
 

@@ -30,8 +30,8 @@ impl Default for Limits {
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Substitutes {
     /// The sets. Each set lists the indices of candidates, ascending. All sets have the same,
-    /// smallest number of candidates. There is one empty set if the target is already unique, and
-    /// no set if no deletion of candidates makes it unique.
+    /// smallest number of candidates. The result is one empty set if the target is already unique,
+    /// and no set if no deletion of candidates makes it unique.
     pub sets: Vec<Vec<usize>>,
     /// Whether all sets of that size are listed. If not, a limit was reached.
     pub complete: bool,

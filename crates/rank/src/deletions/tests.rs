@@ -165,3 +165,14 @@ fn limits_units_and_refusals() {
     );
     assert_eq!(wrong, Err(DeletionError::TargetShape { found: 3, rows: 5 }));
 }
+
+#[test]
+fn an_unclear_coefficient_has_two_digits() {
+    let error = DeletionError::Unclear {
+        value: 0.1,
+        noise: 2.34e-9,
+    };
+    let text = error.to_string();
+    assert!(text.contains("a coefficient of 0.1, "), "{text}");
+    assert!(text.contains("accurate only to 2.3e-9: "), "{text}");
+}

@@ -47,7 +47,7 @@ pub struct SparseRank {
     pub rank: usize,
     /// Degree of redundancy p = m − r.
     pub redundancy: usize,
-    /// Independent rows K, ascending. Their number is r, unless the rank is undecided.
+    /// Independent rows K, ascending. The number of these rows is r, unless the rank is undecided.
     pub kept: Vec<usize>,
     /// The other rows, ascending.
     pub dropped: Vec<usize>,

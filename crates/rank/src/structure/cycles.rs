@@ -8,10 +8,10 @@ use linalg::DisjointSets;
 ///
 /// In mechanics the vertices are bodies and the ground, and the groups are joints whose rows vanish
 /// on the common rigid motions of their bodies. If two sides have only one body in common, the side
-/// without the ground is in equilibrium by itself. Its joints transmit no total wrench to that
-/// body. Therefore every `z` with `Cᵀ·z = 0` is a sum of vectors with the same property, each of
-/// which is zero outside one set. Each set can thus be analysed separately, and the redundancy is
-/// the sum of the redundancies of the sets.
+/// without the ground is in equilibrium by itself. The joints between this side and the common body
+/// transmit no total wrench. Therefore every `z` with `Cᵀ·z = 0` is a sum of vectors with the same
+/// property, each of which is zero outside one set. Each set can thus be analysed separately, and
+/// the redundancy is the sum of the redundancies of the sets.
 ///
 /// ```
 /// use pfaff_rank::cycles;

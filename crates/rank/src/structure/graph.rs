@@ -57,7 +57,7 @@ struct End {
 /// Returns groups on exactly two vertices (blocks or the ground) that no other path connects.
 ///
 /// A depth-first search finds the earliest vertex that each subtree reaches. An edge is a bridge
-/// iff the subtree behind it reaches no vertex before this subtree. A group on more than two
+/// iff no edge connects the subtree below it with an earlier vertex. A group on more than two
 /// vertices is stored as a star around an additional vertex and is never a bridge.
 ///
 /// Source: R. Tarjan, A note on finding the bridges of a graph, Inform. Process. Lett. 2 (1974)

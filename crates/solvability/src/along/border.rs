@@ -12,7 +12,7 @@ pub(super) struct Border {
     /// The factors of the kept rows; `None` if there are more rows than velocities.
     saddle: Option<KeptRowSaddle>,
     units: Vec<f64>,
-    /// The determinant at that instant.
+    /// The determinant at the instant of the basis.
     reference: Determinant,
 }
 

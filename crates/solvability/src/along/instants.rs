@@ -1,5 +1,6 @@
 //! Finds instants at which a component is unique although it is not unique on its time interval,
-//! while the rank stays the same. Its margin decreases to zero there and increases again.
+//! while the rank stays the same. The margin of the component decreases to zero at this instant and
+//! then increases again.
 
 use std::collections::HashMap;
 use std::collections::hash_map::Entry;
@@ -40,7 +41,7 @@ impl Margins {
     }
 }
 
-/// An instant, with the verdicts on all components there.
+/// An instant, with the verdicts on all components at this instant.
 pub(super) type JudgedInstant = (f64, Vec<Judgement>);
 
 /// Finds isolated instants outside the stretches that have another rank, and outside nearly

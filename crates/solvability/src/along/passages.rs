@@ -26,7 +26,7 @@ struct SigmaMinimum {
     proved: bool,
 }
 
-/// A singular or nearly singular instant, with the rank there.
+/// A singular or nearly singular instant, with its rank.
 pub(super) struct DecidedPassage {
     /// The instant, without compared verdicts.
     pub(super) passage: Passage,

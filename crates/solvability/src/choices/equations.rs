@@ -54,7 +54,7 @@ pub struct Equations {
 /// them is rounding. See [`model::Scales::terms`].
 #[derive(Clone, Debug, PartialEq)]
 pub struct RowTerms {
-    /// Sizes for the entries of Γ, m + h values. They are zero if Γ is exact.
+    /// Sizes for the entries of Γ, m + h values. These sizes are zero if Γ is exact.
     pub gamma: Vec<f64>,
     /// Sizes for C·a with accelerations of one unit in any direction, m + h values.
     pub extents: Vec<f64>,
@@ -95,8 +95,8 @@ impl RowTerms {
     }
 
     /// Returns the largest of these accelerations and of the accelerations that the forces alone
-    /// would cause, in their units. Computed accelerations of bodies that the rows hold fixed are
-    /// rounding of these values.
+    /// would cause, in their units. If the rows hold a body fixed, its computed accelerations are
+    /// rounding errors of these values.
     fn largest(&self, a: &[f64], (mass, force): (&[f64], &[f64])) -> f64 {
         let alone = force.iter().zip(mass).map(
             |(force, mass)| {

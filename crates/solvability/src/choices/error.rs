@@ -26,8 +26,7 @@ pub enum ChoiceError {
     Called(#[from] CalledForce),
     /// Redundant rows require different accelerations, so no reactions exist.
     #[error(
-        "row {} requires an acceleration that differs by {by} from what the kept rows give (rounding: {allowed}): \
-         there are no reactions that satisfy both",
+        "row {} requires an acceleration that differs by {by} from the acceleration of the kept rows (rounding error: {allowed}): no reactions satisfy both",
         row + 1, by = short(*by), allowed = short(*allowed))]
     Contradiction {
         /// The dropped row, from 0.
@@ -91,7 +90,7 @@ pub enum ChoiceError {
     },
     /// The number of listed rows differs from the redundancy of one part of the mechanism.
     #[error(
-        "rows without reaction are as many as are redundant, {redundancy} in all: {joints} have {own} of them, but {listed} of their rows {} listed",
+        "the number of rows without reaction must be the redundancy, {redundancy}: {joints} have {own} such rows, but {listed} of their rows {} listed",
         if *listed == 1 { "is" } else { "are" }
     )]
     Count {

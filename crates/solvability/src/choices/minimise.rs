@@ -125,8 +125,8 @@ pub(super) fn minimise_in(
     Ok(lambda)
 }
 
-/// Selects independent columns of a matrix of images (rows of size one or less). The other columns
-/// depend on them.
+/// Selects independent columns of a matrix of images (rows of norm one or less). The remaining
+/// columns depend on the selected ones.
 pub(super) fn independent_columns(rows: &[&[f64]], columns: usize, tolerance: f64) -> Vec<usize> {
     let matrix = Matrix::from_fn(rows.len(), columns, |i, j| rows[i][j]);
     let qr = PivotedQr::of_columns(&matrix);

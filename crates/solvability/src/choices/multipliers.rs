@@ -52,3 +52,17 @@ impl<'a> FreeMultipliers<'a> {
         }
     }
 }
+
+impl Solvability {
+    /// Returns one dependency of the rows of the matrix for each redundant row (a coefficient for
+    /// each row).
+    #[must_use]
+    pub fn dependencies(&self) -> Vec<Vec<f64>> {
+        let free = FreeMultipliers::of(self);
+        let column = |k: usize| {
+            let rows = free.row_factor.iter().enumerate();
+            rows.map(|(i, factor)| factor * free.z[(i, k)]).collect()
+        };
+        (0..free.z.ncols()).map(column).collect()
+    }
+}

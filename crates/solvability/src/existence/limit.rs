@@ -1,6 +1,6 @@
 //! Finds limit positions of drives. The configurations of the constraints form a curve in
-//! coordinates and time, and time has a maximum on this curve at a limit position. There the rank
-//! of Φq drops, and after this time there is no configuration nearby.
+//! coordinates and time, and time has a maximum on this curve at a limit position. At the limit
+//! position the rank of Φq drops, and no later configuration is nearby.
 //!
 //! The continuation uses the length of the curve as parameter and time as an additional unknown. At
 //! the maximum the rows are dependent in the coordinates, but not in coordinates and time. With
@@ -250,7 +250,7 @@ impl<'m> Curve<'m> {
         at.ahead.last().copied().unwrap_or(0.0)
     }
 
-    /// Moves a point by a vector of this length along it.
+    /// Moves a point along its tangent by a vector of this length.
     fn moved(&self, (t, q): (f64, &[f64]), along: &[f64], length: f64) -> (f64, Vec<f64>) {
         let n = self.units.len();
         let step: Vec<f64> = along

@@ -222,7 +222,9 @@ pub(crate) fn describe(mechanism: &Mechanism, circuit: &Circuit) -> String {
         .map(|&i| layout.labels[i].to_string())
         .collect();
     match labels.as_slice() {
-        [row] => format!("row {row} constrains nothing here: its multiplier is not determined"),
+        [row] => format!(
+            "row {row} has no effect at this configuration: its multiplier is not determined"
+        ),
         [a, b] => format!(
             "rows {a} and {b} prevent the same motion: the model does not determine how they share a load \
              (multipliers in the ratio {} cancel)",

@@ -30,7 +30,7 @@ impl<'a> Space<'a> {
         Self { all, chosen }
     }
 
-    /// Returns the dimension of the space minus the number of velocities already chosen.
+    /// Returns the dimension of the space minus the number of chosen velocities.
     pub(super) fn left(&self) -> usize {
         self.all.ncols() - self.chosen.len()
     }
@@ -59,7 +59,7 @@ impl<'a> Space<'a> {
         true
     }
 
-    /// Returns these forms as a condition on the coefficients.
+    /// Returns the condition on the coefficients that these forms define.
     pub(super) fn condition(&self, forms: &[Form]) -> Condition {
         let mut rows = Matrix::zeros(forms.len(), self.all.ncols());
         for (i, form) in forms.iter().enumerate() {

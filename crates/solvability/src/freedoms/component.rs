@@ -39,10 +39,10 @@ struct Cost {
 
 /// Free motions of a component.
 pub(super) struct Motions {
-    /// Whether the component moves as one free body. Its translations and rotations then come
-    /// before all other motions.
+    /// Whether the component moves as one free body. The translations and rotations of the
+    /// component then come before all other motions.
     pub(super) is_free: bool,
-    /// The other motions, those with few moving joints first.
+    /// Remaining motions, sorted by the number of moving joints.
     pub(super) motions: Vec<Velocities>,
 }
 
@@ -340,8 +340,9 @@ impl<'a> Component<'a> {
         self.rigid().iter().map(|v| self.velocities(v)).collect()
     }
 
-    /// Returns velocities in physical units and ground axes. They are scaled so that the largest
-    /// rotation is 1, or the fastest translation if no body rotates. Rounding is set to zero.
+    /// Returns velocities in physical units and ground axes. The velocities are scaled so that the
+    /// largest rotation is 1, or the fastest translation if no body rotates. Rounding is set to
+    /// zero.
     fn velocities(&self, v: &[f64]) -> Velocities {
         let space = self.mechanism.space();
         let mut v = v.to_vec();

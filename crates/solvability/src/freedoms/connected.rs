@@ -147,7 +147,7 @@ impl<'a> ConnectedSets<'a> {
         places.map(|&k| q[of_whole[k]]).collect()
     }
 
-    /// Returns the mechanism of a set of connected bodies. Its indices refer to the mechanism of
+    /// Returns the mechanism of a set of connected bodies. The indices refer to the mechanism of
     /// the chosen joints.
     fn part(&self, set: &[usize]) -> Part {
         let bodies = &self.joined.places.bodies;

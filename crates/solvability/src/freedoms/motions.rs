@@ -19,7 +19,7 @@ pub struct FreeMotions {
 pub struct LeftOut {
     /// Number of these free motions.
     pub freedoms: usize,
-    /// Reason why they are not described.
+    /// Reason why the free motions are not described.
     pub reason: String,
 }
 

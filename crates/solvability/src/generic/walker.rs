@@ -17,8 +17,8 @@ use crate::pose::dimensionless;
 pub(super) struct LastingRows {
     /// Rows that are satisfied at all points.
     held: Vec<usize>,
-    /// Rows that are redundant within a stated tolerance, ascending. They have residuals at other
-    /// points.
+    /// Rows that are redundant within a stated tolerance, ascending. At other points the residuals
+    /// of these rows are not zero.
     dropped: Vec<usize>,
 }
 
@@ -67,7 +67,7 @@ impl LastingRows {
 pub(super) struct Walker<'m> {
     pub(super) mechanism: &'m Mechanism,
     pub(super) rows: LastingRows,
-    /// Units of the velocities in a mechanism of size one.
+    /// Units of the velocities in a mechanism of 1 m.
     pub(super) units: Vec<f64>,
     pub(super) size: f64,
     pub(super) leaving: Leaving<'m>,
@@ -121,8 +121,8 @@ impl Walker<'_> {
         ((t, &q) != (from.0, &from.1)).then_some((t, q))
     }
 
-    /// Returns the configuration after a step along a dimensionless velocity. The length is the
-    /// stride or a halved one.
+    /// Returns the configuration after a step along a dimensionless velocity. The length of the
+    /// step is the stride, possibly halved several times.
     fn step(
         &self,
         (t, q): (f64, &[f64]),

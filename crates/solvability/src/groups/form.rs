@@ -159,8 +159,8 @@ impl LinearForm {
     }
 
     /// Returns `ℓᵀ·Ẑ / ‖sizes‖` for an orthonormal basis Ẑ of the left null space of the
-    /// equilibrated matrix. This is the margin as a vector. The second value is the divisor (1 for
-    /// a form without terms).
+    /// equilibrated matrix. The result is the margin as a vector. The second value is the divisor
+    /// (1 for a form without terms).
     pub(crate) fn image(&self, free: &FreeMultipliers<'_>) -> (Vec<f64>, f64) {
         let scaled = |x: &[f64]| -> Vec<f64> {
             let pairs = x.iter().zip(free.row_factor.iter());

@@ -1,6 +1,6 @@
 //! Reaction components at one configuration, sums of components, sums of wrenches, and resultants.
-//! Each is a linear form of the multipliers. Other modules determine which of these forms are
-//! unique.
+//! Each reaction or sum is a linear form of the multipliers. Other modules determine which of these
+//! forms are unique.
 
 use std::borrow::Cow;
 
@@ -243,7 +243,7 @@ impl<'a> ReactionForms<'a> {
         vec![self.zero(); self.mechanism.space().n_v()]
     }
 
-    pub(super) fn zero(&self) -> LinearForm {
+    pub(crate) fn zero(&self) -> LinearForm {
         LinearForm::zero(self.mechanism.layout().rows())
     }
 

@@ -35,8 +35,8 @@ pub(crate) struct RowAccuracy {
     pub(crate) row_factor: Vec<f64>,
     /// Uncertainty of each row of Z (norm).
     pub(crate) row_noise: Vec<f64>,
-    /// Part of `row_noise` that does not come from the tolerance stated by the scene. It is empty
-    /// if the scene states no tolerance.
+    /// Part of `row_noise` that does not come from the tolerance stated by the scene. The list is
+    /// empty if the scene states no tolerance.
     pub(crate) row_rounding: Vec<f64>,
     /// Uncertainty of any single coefficient.
     pub(crate) tolerance: f64,

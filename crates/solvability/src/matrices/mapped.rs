@@ -233,8 +233,8 @@ impl<'a> MultiplierMap<'a> {
     }
 
     /// Returns the largest component of the reaction, in the unit of margins, that counts as zero
-    /// within a stated tolerance so that the directions are unique. It is zero if there is no such
-    /// component.
+    /// within a stated tolerance so that the directions are unique. The value is zero if no
+    /// component counts as zero.
     ///
     /// # Errors
     /// Same errors as [`MultiplierMap::unique_directions`].
@@ -263,8 +263,8 @@ impl<'a> MultiplierMap<'a> {
         Ok(left.fold(0.0, f64::max))
     }
 
-    /// Returns the unique directions in which a reaction is possible. They are perpendicular to the
-    /// directions in which it is zero for all multipliers.
+    /// Returns the unique directions in which a reaction is possible. The returned directions are
+    /// perpendicular to those in which the reaction is zero for all multipliers.
     pub(crate) fn live_directions(&self, unique: &[Vec<f64>]) -> Vec<Vec<f64>> {
         if unique.is_empty() {
             return Vec::new();

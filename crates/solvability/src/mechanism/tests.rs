@@ -4,8 +4,9 @@
 use joints::spec::{Shape, Spec};
 use joints::{Argument, Plane, Space3, space3};
 use model::{
-    Body, BodyRef, BodySpace, ConstraintId, ConstraintKernels, Description, Function, Joint,
-    Mechanism, MechanismDescription, Registry, SpatialBody, SpatialDescription, System,
+    Body, BodyRef, BodySpace, ConstraintId, ConstraintKernels, ContactLimits, Description,
+    Function, Joint, Mechanism, MechanismDescription, Registry, SpatialBody, SpatialDescription,
+    System,
 };
 
 use crate::{ReactionVerdict, Verdict, analyse};
@@ -208,6 +209,7 @@ fn not_unique<S: Loops>(draw: &mut Draw, kind: &str, other: &str) -> Vec<(&'stat
                 element,
                 functions: vec![Function::constant(0.0).expect("a number"); functions],
                 tolerance: None,
+                limits: ContactLimits::default(),
             });
             given.push(Argument::Absent);
             for drive in &definition.drives {
@@ -229,6 +231,7 @@ fn not_unique<S: Loops>(draw: &mut Draw, kind: &str, other: &str) -> Vec<(&'stat
                 element,
                 functions: Vec::new(),
                 tolerance: None,
+                limits: ContactLimits::default(),
             });
         }
     }
@@ -317,6 +320,7 @@ fn a_coupling_in_a_loop_has_its_own_load() {
             element,
             functions: Vec::new(),
             tolerance: None,
+            limits: ContactLimits::default(),
         });
     }
     let mechanism = Mechanism::build(&d).expect("it builds");

@@ -16,8 +16,8 @@ use linalg::Lu;
 pub(super) struct Equation {
     /// The value that must be zero.
     pub(super) target: f64,
-    /// Rounding of the target and of the coefficients: an additional change that only this equation
-    /// has, of relative size up to one.
+    /// Rounding error of the target and of the coefficients: an additional unknown of this
+    /// equation, with a relative size of at most one.
     pub(super) rounding: f64,
     /// Coefficients of each point, direction or number.
     pub(super) parts: Vec<[f64; 3]>,
@@ -45,8 +45,8 @@ impl Bounds {
     }
 }
 
-/// Returns bounds of `s*`. They are close together unless the iteration stalls. Equations that no
-/// change of data can satisfy give a large value.
+/// Returns bounds of `s*`. The two bounds are close together unless the iteration stalls. Equations
+/// that no change of data can satisfy give a large value.
 pub(super) fn least_change(equations: &[Equation]) -> Bounds {
     let e = equations.len();
     let blocks = equations.first().map_or(0, |first| first.parts.len());

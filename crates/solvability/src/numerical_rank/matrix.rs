@@ -99,7 +99,7 @@ impl UncertainMatrix {
     /// Returns a scaling with one factor for the translation of each body, one for its rotation,
     /// one for the force rows of each joint, and one for its moment rows. A lever determines the
     /// scale of its body only if it is far larger than its uncertainty. Otherwise the rounding of
-    /// larger terms could be scaled up to size one. The rank does not depend on scales.
+    /// larger terms could be scaled up to norm one. The rank does not depend on scales.
     pub(crate) fn scaling(&self) -> Scaling {
         let significant = |i: usize, j: usize| match self.c[(i, j)] {
             c if c.abs() > rank::SIGNIFICANT * self.uncertainty[(i, j)] => c,

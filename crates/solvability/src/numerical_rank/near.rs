@@ -21,10 +21,10 @@ use super::walk::{Walk, walk};
 /// size).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Nearness {
-    /// Error at this configuration only.
+    /// Error in the data for a lower rank at this configuration alone.
     pub(crate) here: f64,
     /// Error for one change of the data at all configurations of a continuation: from this change
-    /// upwards, a row is redundant. It is infinite if no change makes a row redundant.
+    /// upwards, a row is redundant. The change is infinite if no change makes a row redundant.
     pub(crate) everywhere: f64,
     /// A lower bound of this error if nonholonomic rows are kept. Such rows constrain no position,
     /// so other configurations are reached from a start with the uncertainty of the data. Otherwise

@@ -115,7 +115,7 @@ impl UncertainMatrix {
             _ => {}
         }
         // A redundancy within a tolerance refers to lengths in one common unit: a short lever must
-        // not be scaled up to size one.
+        // not be scaled up to norm one.
         let (scaling, scaled) = match grounds {
             Grounds::WithinTolerance => {
                 let (scaled, scaling) = question.uniform(question.s);

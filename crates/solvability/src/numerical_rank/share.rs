@@ -119,8 +119,7 @@ impl Question<'_> {
     /// Returns the change of some rows of the left null space of the scaled C within the
     /// uncertainty of the data at fixed rank: `δz_i = −(C⁺·e_i)ᵀ·δCᵀ·Z`. The change is computed for
     /// an orthonormal basis Z, and for the dependency of each dropped row relative to its largest
-    /// coefficient. The result has one value for each row, zero for rows that are not listed in
-    /// `asked`.
+    /// coefficient. The result has one value for each row, zero for rows that are not in `asked`.
     pub(crate) fn rows_within_data(
         &self,
         scaled: &Matrix,
@@ -275,8 +274,8 @@ pub(super) fn rounding(scaled: &Matrix) -> f64 {
     ENTRY_ROUNDINGS * f64::EPSILON * (scaled.nrows() as f64 * scaled.ncols() as f64).sqrt()
 }
 
-/// Returns the equation for a value that must vanish. Its coefficients are for changes of blocks by
-/// their uncertainty.
+/// Returns the equation for a value that must vanish. The coefficients of the equation belong to
+/// changes of blocks by their uncertainty.
 pub(super) fn equation(
     target: f64,
     gradient: &[f64],

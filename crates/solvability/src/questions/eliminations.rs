@@ -98,8 +98,8 @@ impl Questions<'_> {
         Ok(sets)
     }
 
-    /// Returns the smallest deletions that make a reaction unique without a change of motion. They
-    /// are in the part of the reaction.
+    /// Returns the smallest deletions that make a reaction unique without a change of motion. The
+    /// deleted rows are in the part of the reaction.
     ///
     /// # Errors
     /// Returns an error if the rank of the part or the effect of a deletion is undecided, if an

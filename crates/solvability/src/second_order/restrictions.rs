@@ -1,8 +1,9 @@
-//! Second-order restrictions on the velocities with `C·v = 0`, while functions of time are locked.
+//! The conditions of second order that velocities with `C·v = 0` must satisfy while drives are
+//! locked.
 //!
 //! The velocities that no form contains are unrestricted: second order does not exclude them. The
-//! other velocities are orthogonal to these. They split into sets of bodies that joints connect,
-//! because self-stresses do. Each set is decided separately.
+//! restricted velocities are orthogonal to the unrestricted ones. The velocities split into sets of
+//! bodies that joints connect, because self-stresses do. Each set is decided separately.
 
 use crate::limits::{FORM_NOISE, OWN_SHARE};
 use linalg::{Matrix, PivotedQr, small_svd};
@@ -21,7 +22,7 @@ pub enum SecondOrder {
     /// No combination of the velocities satisfies the second-order equations: no motion has such a
     /// velocity.
     Blocked,
-    /// Some of the velocities satisfy the equations, also for slightly different coefficients.
+    /// Certain velocities satisfy the equations, also for slightly different coefficients.
     Free,
     /// Neither statement is proved.
     Undecided,
@@ -34,8 +35,8 @@ pub enum SecondOrder {
 pub struct RestrictedVelocities {
     /// The bodies, ascending.
     pub bodies: Vec<usize>,
-    /// A basis of the velocities, n_v values each, orthonormal in dimensionless form. They are
-    /// orthogonal to the velocities that no equation contains.
+    /// A basis of the velocities, n_v values each, orthonormal in dimensionless form. The vectors
+    /// of the basis are orthogonal to the velocities that no equation contains.
     pub velocities: Vec<Vec<f64>>,
     /// The decision.
     pub second_order: SecondOrder,
@@ -114,7 +115,7 @@ impl Restrictions {
         sets.flat_map(|set| set.velocities.clone()).collect()
     }
 
-    /// Creates the restrictions from forms without a motion of their own.
+    /// Creates the restrictions from quadratic forms alone, without a given motion.
     pub(super) fn of(forms: &Forms, mechanism: &Mechanism, q: &[f64]) -> Self {
         let basis = restricted(forms);
         let sets = sets(forms, &basis, mechanism, q);

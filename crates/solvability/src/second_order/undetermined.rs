@@ -10,7 +10,7 @@ use rank::{Doubt, RankError};
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub enum SecondOrderDoubt {
     /// The number of new motions exceeds the largest number that is examined.
-    #[error("{found} new motions at once, more than the {most} that are examined")]
+    #[error("{found} new motions at this configuration, more than the {most} that are examined")]
     Kernel {
         /// Number of new motions.
         found: usize,
@@ -28,7 +28,7 @@ pub enum SecondOrderDoubt {
     NoTerms,
     /// The given motion does not solve the equations.
     #[error(
-        "the given motion itself misses the second-order equations by {residual} (relative), more than {tolerance}", residual = short(*residual), tolerance = rough(*tolerance))]
+        "the given motion violates the second-order equations by {residual} (relative), more than {tolerance}", residual = short(*residual), tolerance = rough(*tolerance))]
     Irregular {
         /// Largest value of an equation, relative to its largest coefficient.
         residual: f64,

@@ -1,6 +1,6 @@
 //! Decides whether quadratic forms have a common real zero other than the origin.
 //!
-//! The first two of the three results are proofs. They apply to every set of forms whose
+//! The first two of the three results are proofs. The proofs apply to every set of forms whose
 //! coefficients differ from the given ones by at most a stated error:
 //!
 //! - [`CommonZero::None`]: a combination of the forms is definite, or boxes cover the sphere and
@@ -33,7 +33,8 @@ pub enum CommonZero {
     /// The forms have a common zero near this unit vector, also with slightly different
     /// coefficients.
     Transversal(Vec<f64>),
-    /// Neither statement is proved within the error of the coefficients.
+    /// Neither the existence nor the absence of a common zero is proved within the error of the
+    /// coefficients.
     Undecided,
 }
 

@@ -1,7 +1,7 @@
 //! Solves the mechanism with a displaced datum near a limit position of its bodies, where the first
 //! order is not enough. There the smallest singular value of the kept rows approaches zero with the
-//! square root of the datum, and reactions grow with its inverse. Bodies follow by the smallest
-//! motion, and velocities by the smallest change; loads are constant.
+//! square root of the datum, and reactions grow with its inverse. The displacements of the bodies
+//! and the changes of the velocities are the smallest possible ones; loads are constant.
 
 use linalg::{KeptRowSaddle, Matrix, least_squares_step};
 use model::{ConstraintId, Mechanism, System};
@@ -62,7 +62,8 @@ impl DisplacedEquations<'_> {
         Matrix::from_fn(c.nrows(), c.ncols(), |i, j| c[(i, j)] * self.units[j])
     }
 
-    /// Returns the smallest dimensionless x with `rows·x = −missed`.
+    /// Returns the smallest dimensionless x with `rows·x = −missed`, for the constraint violations
+    /// `missed`.
     fn least(&self, rows: &Matrix, missed: &[f64]) -> Option<Vec<f64>> {
         let weights = vec![1.0; self.units.len()];
         let x = least_squares_step(rows, missed, &weights, f64::EPSILON).ok()?;

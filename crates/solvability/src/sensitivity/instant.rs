@@ -458,8 +458,8 @@ fn followed(
 }
 
 /// Computes `w` with `gᵀ·δx = −wᵀ·δr` for the smallest δx that compensates a change δr of the
-/// followed rows, the first of `kept`. Entries of other rows are left unchanged. They are NaN if
-/// the rows are too nearly dependent.
+/// followed rows, the first of `kept`. Entries of other rows are left unchanged. The entries are
+/// NaN if the rows are too nearly dependent.
 fn multipliers(rows: &mut KeptRowSaddle, g: &[f64], kept: &[usize], w: &mut [f64]) {
     let (still, mut x) = (vec![0.0; rows.n_rows()], vec![0.0; g.len()]);
     let mut found = still.clone();
@@ -510,8 +510,8 @@ fn is_near_limit(rows: &Matrix, units: &[f64]) -> bool {
 }
 
 /// Returns velocities of one unit: 1 m/s, and the rate that moves a point at the size of the
-/// mechanism as fast. They are weights of motions and are not rounded, because a sensitivity must
-/// not depend on units.
+/// mechanism as fast. The velocities are weights of motions and are not rounded, because a
+/// sensitivity must not depend on units.
 pub(super) fn units(mechanism: &Mechanism, size: f64) -> Vec<f64> {
     let kinds = mechanism.layout().column_kinds();
     let unit = |kind: &ColumnKind| match kind {

@@ -12,7 +12,8 @@ use crate::parts::{Extent, Partition};
 
 /// A set of bodies with the joints between them, and the forces on it.
 pub(super) struct JoinedBodies<'a> {
-    /// The mechanism of the set. It has no forces, unless it is the whole mechanism.
+    /// The mechanism of the set. The mechanism of a set has no forces, unless the set is the whole
+    /// mechanism.
     pub(super) mechanism: &'a Mechanism,
     /// Joints, bodies and rows of the set in the whole mechanism.
     pub(super) extent: &'a Extent,

@@ -16,8 +16,8 @@ use crate::words;
 #[derive(Clone, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct ReactionSensitivities {
-    /// Sensitivities of components by their names, as in [`crate::ComponentVerdict`]. They include
-    /// the named component of the definition, such as `N` of a knife edge or `drive`.
+    /// Sensitivities of components by their names, as in [`crate::ComponentVerdict`]. The list
+    /// includes the named component of the definition, such as `N` of a knife edge or `drive`.
     pub components: Vec<(&'static str, Sensitivity)>,
     /// Sensitivities of [`ReactionVerdict::live_directions`]; `None` for a direction whose
     /// sensitivity is not known.
@@ -52,8 +52,9 @@ impl ReactionSensitivities {
 #[derive(Clone, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Sensitivities {
-    /// Sensitivities of joints and drives in the order of their rows. They are empty for a reaction
-    /// without a unique component, and for a reaction whose sensitivities cannot be computed.
+    /// Sensitivities of joints and drives in the order of their rows. The list is empty for a
+    /// reaction without a unique component, and for a reaction whose sensitivities cannot be
+    /// computed.
     pub each: Vec<ReactionSensitivities>,
     /// Sentences on unique reactions whose sensitivity cannot be computed, with the reason.
     pub left_out: Vec<String>,
@@ -119,7 +120,7 @@ impl Sensitivities {
         sentences(self.fragile_names(id, layout), layout)
     }
 
-    /// Returns what is sensitive to the data, with names for sentences: the reaction with all its
+    /// Returns the sensitive quantities, with names for sentences: the reaction with all its
     /// components, or only some components.
     fn fragile_names(&self, id: ConstraintId, layout: &Layout) -> Vec<(String, Sensitivity)> {
         let Some(all) = self.each.get(id.0) else {

@@ -110,7 +110,7 @@ impl Stretches {
     }
 
     /// Copies the verdicts of some of the joints and drives to their indices in the whole
-    /// mechanism. Each of their groups is a share of a group of the whole mechanism.
+    /// mechanism. A group of a part contains a share of a group of the whole mechanism.
     pub fn take(&mut self, own: &Self, places: &[usize], shares: &[usize]) {
         for (found, &place) in own.reactions.iter().zip(places) {
             self.reactions[place] = ReactionStretches {

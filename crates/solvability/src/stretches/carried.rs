@@ -426,8 +426,8 @@ impl OpenPart<'_> {
     }
 
     /// Returns vectors of the left null space from the motion, orthonormal in equilibrated rows.
-    /// Their accuracy is that of the last full decision, or that with which `Cᵀ·z = 0` is
-    /// satisfied.
+    /// The accuracy of these vectors is the accuracy of the last full decision, or the accuracy to
+    /// which they satisfy `Cᵀ·z = 0`.
     fn carried_basis(
         &self,
         whole: &Mechanism,

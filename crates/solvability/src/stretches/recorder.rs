@@ -148,7 +148,7 @@ impl VerdictRecorder {
 /// A time interval with its instants.
 struct RecordedStretch {
     ends: [f64; 2],
-    /// All instants that belong to it.
+    /// All instants that belong to the interval.
     own: Range<usize>,
     /// The instants between the ends of the interval.
     inside: Range<usize>,

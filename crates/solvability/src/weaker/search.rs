@@ -31,14 +31,20 @@ struct Search {
     later: Vec<(usize, f64)>,
     /// Number of components that have to be released.
     free: usize,
+    /// Sets with this cost or more are left out, if there is such a limit.
+    below: Option<usize>,
     ways: Vec<Way>,
     steps: usize,
 }
 
 /// Returns the cheapest sets of candidates, at most one for each joint, that together release
-/// `free` independent components. Among sets with the same cost, the set whose components are
-/// farthest from being dependent comes first.
-pub(super) fn cheapest(mut joints: Vec<Vec<Candidate>>, free: usize) -> Vec<Vec<usize>> {
+/// `free` independent components and cost less than `below`. Among sets with the same cost, the set
+/// whose components are farthest from being dependent comes first.
+pub(super) fn cheapest(
+    mut joints: Vec<Vec<Candidate>>,
+    free: usize,
+    below: Option<usize>,
+) -> Vec<Vec<usize>> {
     for candidates in &mut joints {
         candidates.retain(|candidate| {
             let released = extend(&mut Vec::new(), &candidate.forms, CLEARLY_RELEASED);
@@ -58,6 +64,7 @@ pub(super) fn cheapest(mut joints: Vec<Vec<Candidate>>, free: usize) -> Vec<Vec<
         joints,
         later,
         free,
+        below,
         ways: Vec::new(),
         steps: 0,
     };
@@ -87,6 +94,16 @@ impl Search {
         chosen: &mut Vec<usize>,
     ) {
         let missing = self.free - released.len();
+        let (possible, least) = self.later[at];
+        let at_least = match missing {
+            0 => cost as f64,
+            missing => cost as f64 + least * missing as f64,
+        };
+        // Costs are whole numbers.
+        let is_worse = |most: usize| at_least > most as f64 - 0.5;
+        if self.below.is_some_and(is_worse) {
+            return;
+        }
         if missing == 0 {
             self.add(Way {
                 cost,
@@ -96,13 +113,10 @@ impl Search {
             return;
         }
         self.steps += 1;
-        let (possible, least) = self.later[at];
-        let at_least = cost as f64 + least * missing as f64;
-        let is_worse = |way: &Way| at_least > way.cost as f64 + 0.5;
         let is_known = self.ways.len() == REPLACEMENT_WAYS;
         if missing > possible
             || self.steps > REPLACEMENT_STEPS
-            || is_known && self.ways.last().is_some_and(is_worse)
+            || is_known && self.ways.last().is_some_and(|way| is_worse(way.cost + 1))
         {
             return;
         }

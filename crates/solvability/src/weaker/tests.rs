@@ -54,13 +54,13 @@ fn dependent_releases_are_no_replacement() {
     let with = |small: f64| {
         let first = vec![candidate(0, 1, &[&[1.0, 0.0]])];
         let second = vec![candidate(1, 1, &[&[1.0, small]])];
-        cheapest(vec![first, second], 2)
+        cheapest(vec![first, second], 2, None)
     };
     assert_eq!(with(1e-3), [[0, 1]]);
     assert!(with(1e-7).is_empty());
     // A component that no free multiplier changes cannot be released.
     let zero = vec![candidate(0, 1, &[&[1e-17]])];
-    assert!(cheapest(vec![zero], 1).is_empty());
+    assert!(cheapest(vec![zero], 1, None).is_empty());
 }
 
 #[test]
@@ -70,7 +70,7 @@ fn equal_sets_keep_their_order() {
         let forms = forms.iter().enumerate();
         let joint = forms.map(|(k, form)| candidate(k, 1, &[form]));
         let other = vec![candidate(2, 1, &[&[0.0, 1.0]])];
-        cheapest(vec![joint.collect(), other], 2)
+        cheapest(vec![joint.collect(), other], 2, None)
     };
     assert_eq!(with(0.5 - 1e-9), [[0, 2], [1, 2]]);
     assert_eq!(with(0.5 - 1e-4), [[1, 2], [0, 2]]);
@@ -113,11 +113,21 @@ fn the_first_set_is_the_cheapest() {
             (released.iter().sum::<usize>() == free).then(|| costs.sum::<usize>())
         });
         let least = costs.min().expect("a set");
-        let found = cheapest(joints.clone(), free);
+        let found = cheapest(joints.clone(), free, None);
         let all: Vec<&Candidate> = joints.iter().flatten().collect();
         let cost = |way: &Vec<usize>| way.iter().map(|&k| all[k].cost).sum::<usize>();
         assert_eq!(found.first().map(cost), Some(least), "{free}");
         assert!(found.is_sorted_by_key(cost), "{found:?}");
+        // A limit removes the sets that are not cheaper, and no other.
+        for limit in [least, least + 1, least + 3] {
+            let below = cheapest(joints.clone(), free, Some(limit));
+            let cheaper = found.iter().filter(|way| cost(way) < limit);
+            assert_eq!(
+                below,
+                cheaper.cloned().collect::<Vec<_>>(),
+                "{free}, {limit}"
+            );
+        }
     }
 }
 
@@ -131,5 +141,5 @@ fn the_search_ends() {
         form[19] = 0.0;
         vec![candidate(joint, 1, &[&form])]
     });
-    assert!(cheapest(joints.collect(), 20).is_empty());
+    assert!(cheapest(joints.collect(), 20, None).is_empty());
 }

@@ -50,7 +50,7 @@ impl Fleet {
     }
 }
 
-/// Finds names, and the y of global points, in a line.
+/// Finds the names in a line, and the y coordinates of global points.
 fn take_apart(line: &'static str, out: &mut Vec<Piece>) {
     let key = line.split(' ').next().unwrap_or_default();
     match key {
@@ -96,9 +96,9 @@ impl Family for Fleet {
     fn words(&self) -> Vec<String> {
         vec![
             format!("{} robots with trolleys side by side, platforms coupled by springs.", self.n),
-            "Not unique: B, C, W1, W2, W3, W4 of each robot, while it drives straight across its way only."
+            "Not unique: B, C, W1, W2, W3, W4 of each robot, only while the robot drives straight and perpendicular to the coupling springs."
                 .to_owned(),
-            "All move alike: the springs stay slack, and each robot moves as robot-trolley.toml does."
+            "All robots perform the same motion: the springs stay slack, and each robot moves as in robot-trolley.toml."
                 .to_owned(),
         ]
     }

@@ -213,7 +213,7 @@ impl Family for Lattice {
                 self.braced.chosen,
                 n = self.n
             ),
-            "Not unique: reactions inside braced blocks, along what their braces can press against each other."
+            "Not unique: reactions inside braced blocks, in the directions in which their braces can press against each other."
                 .to_owned(),
         ]
     }

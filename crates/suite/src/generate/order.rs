@@ -239,7 +239,7 @@ impl Order {
             return Err(GenerateError::Unused {
                 kind,
                 option: "seed",
-                reason: "nothing in it is drawn at random",
+                reason: "the campaign contains no random choices",
             });
         }
         let default = kind.share();

@@ -228,7 +228,7 @@ impl Module {
         self.bodies.push((name, BodyText::rod(mass, from, to)));
     }
 
-    /// Adds one rod, on pins along it.
+    /// Adds one rod with pins along its length.
     fn rod(
         &mut self,
         at: [f64; 2],

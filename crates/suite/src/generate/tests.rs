@@ -130,7 +130,7 @@ fn impossible_orders_are_refused_with_their_numbers() {
     };
     assert_eq!(
         refusal(order),
-        "lattice takes no seed: nothing in it is drawn at random"
+        "lattice takes no seed: the campaign contains no random choices"
     );
 }
 

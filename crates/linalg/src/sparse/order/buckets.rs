@@ -3,8 +3,8 @@
 /// Value for the absence of a node.
 const NONE: usize = usize::MAX;
 
-/// Some of the nodes `0..n`, each with a degree below n. Among nodes of equal degree, the latest
-/// comes first.
+/// A subset of the nodes `0..n`, each with a degree below n. Among nodes of equal degree, the
+/// latest comes first.
 pub(super) struct Buckets {
     first: Vec<usize>,
     next: Vec<usize>,

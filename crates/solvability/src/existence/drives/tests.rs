@@ -94,8 +94,8 @@ fn motors_of_two_speeds_are_named_at_the_start() {
     let [one] = found.as_slice() else {
         panic!("{found:?}");
     };
-    let text = "at t = 0 s drives `left` and `right` contradict each other: they ask for different velocities, which differ by 0.3 m/s (`left` asks the displacement of `rail-left` to change \
-                at 0.3 m/s and `right` asks the displacement of `rail-right` to change at 0.6 m/s, and row 2 (`rail-left`, angle) ties them to each \
+    let text = "at t = 0 s drives `left` and `right` contradict each other: they require different velocities, which differ by 0.3 m/s (`left` requires the displacement of `rail-left` to change \
+                at 0.3 m/s and `right` requires the displacement of `rail-right` to change at 0.6 m/s, and row 2 (`rail-left`, angle) connects them with each \
                 other). Redundant drives must follow the same motion; delete or correct one of them";
     assert_eq!(one.to_string(), text);
     assert!(one.is_of_drives());
@@ -128,7 +128,8 @@ fn motors_that_part_later_are_named_with_the_time() {
         );
         let text =
             contradicting_drives(&mechanism, 1.0, &there).expect("a configuration")[0].to_string();
-        let asked = format!("`right` asks the displacement of `rail-right` to change by {said},");
+        let asked =
+            format!("`right` requires the displacement of `rail-right` to change by {said},");
         assert!(
             text.starts_with("at t = 1 s drives `left` and `right` contradict"),
             "{text}"
@@ -239,7 +240,7 @@ fn a_motor_that_lags_behind_is_named_with_the_joints_between() {
         "{text}"
     );
     assert!(
-        text.contains("`pin-0`") && text.contains("tie them to each other"),
+        text.contains("`pin-0`") && text.contains("connect them with each other"),
         "{text}"
     );
 }
@@ -279,9 +280,8 @@ fn locked_door(motion: Function) -> Description {
 #[test]
 fn a_drive_that_asks_for_what_joints_forbid_is_named_with_them() {
     let found = at_start(&locked_door(rate(2.0)));
-    let text = "at t = 0 s drive `motor` asks the angle of `hinge` to change at 2 rad/s, which differs from what rows 2 (`hinge`, y) and 4 (`third`, y) \
-                allow by 2 rad/s. The others do not allow the motion that one of them prescribes: the mechanism is locked, or in a \
-                singular configuration. Begin at another configuration, or prescribe another motion";
+    let text = "at t = 0 s drive `motor` requires the angle of `hinge` to change at 2 rad/s, which differs by 2 rad/s from the value that rows 2 (`hinge`, y) and 4 \
+                (`third`, y) allow. The remaining rows do not allow the motion that one row prescribes: the mechanism is locked, or in a singular configuration. Begin at another configuration, or prescribe another motion";
     assert_eq!(
         found.iter().map(ToString::to_string).collect::<Vec<_>>(),
         [text]
