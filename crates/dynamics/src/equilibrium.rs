@@ -68,8 +68,8 @@ pub struct Equilibrium {
     /// Whether the equilibrium depends on the path of the search, because nonholonomic rows
     /// restrict the path but not the position.
     pub depends_on_way: bool,
-    /// Drives and joints that are locked here, but would accelerate at once because of their
-    /// functions of time.
+    /// Drives and joints that are locked in this analysis, but accelerate immediately in a run
+    /// because of their functions of time.
     pub moving_on: Vec<String>,
 }
 
@@ -110,9 +110,9 @@ impl RestStability {
     #[must_use]
     pub fn why_not(self) -> Option<&'static str> {
         match self {
-            Self::Nonholonomic => {
-                Some("nonholonomic rows let the place depend on the way, so there is no potential")
-            }
+            Self::Nonholonomic => Some(
+                "with nonholonomic rows the position depends on the path, so no potential exists",
+            ),
             Self::NoPotential => Some("the forces have no potential"),
             _ => None,
         }
@@ -201,7 +201,7 @@ struct EquilibriumSearch<'m> {
 }
 
 impl EquilibriumSearch<'_> {
-    /// Moves to an equilibrium; returns the stiffness there.
+    /// Moves to an equilibrium; returns the stiffness at the equilibrium.
     fn run(&mut self, options: &EquilibriumOptions) -> Result<Stiffness, EquilibriumError> {
         loop {
             let stiffness = self.statics.stiffness(&self.at)?;
@@ -269,7 +269,7 @@ impl EquilibriumSearch<'_> {
         }
     }
 
-    /// The unbalanced forces at the present configuration.
+    /// The unbalanced forces at the current configuration.
     fn pushed(&mut self) -> Vec<UnbalancedForce> {
         let size = norm(&self.at.free);
         let along: Vec<f64> = self.at.free.iter().map(|f| f / size).collect();

@@ -71,7 +71,7 @@ pub enum MotionFault {
         what: String,
     },
     /// An external function did not return a finite value. The run ends, because another step
-    /// cannot correct this.
+    /// cannot correct the error.
     #[error(
         "at t = {t} s {source} has no value; a function must return finite numbers at every state, since the stages of a step may leave the motion", t = rounded(*time))]
     Function {
@@ -169,6 +169,17 @@ pub enum MotionFault {
         /// Residual of the row.
         residual: f64,
     },
+    /// One-sided joints cannot all stay closed any more.
+    #[error(
+        "at t = {t} s {who}: no sharing of the loads presses on all one-sided joints any more; end the run before, or \
+         leave out `one_sided` to compute the motion of contacts that pull",
+        t = rounded(*time), who = open(joints))]
+    Opens {
+        /// Time (s).
+        time: f64,
+        /// The joints that open.
+        joints: Vec<String>,
+    },
     /// Newton's method for dependent coordinates converged to a configuration far away: another
     /// branch, or another revolution.
     #[error(
@@ -212,7 +223,7 @@ pub enum MotionFault {
     },
     /// No step reaches the other side of a singular configuration.
     #[error(
-        "{} the mechanism is at or passes a singular configuration without a smooth continuation: the constraints do not determine how the motion continues", instant(*from, *to))]
+        "{} the mechanism is at or passes a singular configuration without a smooth continuation: the constraints do not determine the further motion", instant(*from, *to))]
     SingularPassage {
         /// The last time reached before the singular configuration (s).
         from: f64,
@@ -251,6 +262,13 @@ pub enum MotionFault {
     },
 }
 
+/// Names joints that open.
+fn open(joints: &[String]) -> String {
+    let names: Vec<String> = joints.iter().map(|name| format!("`{name}`")).collect();
+    let verb = if joints.len() == 1 { "opens" } else { "open" };
+    format!("{} {verb}", listed(&names))
+}
+
 impl MotionFault {
     /// Error code; see [`model::codes`].
     #[must_use]
@@ -274,6 +292,7 @@ impl MotionFault {
             Self::SingularPassage { .. } => const { Code::new(422) },
             Self::NoRows { .. } => const { Code::new(423) },
             Self::NoConfiguration { .. } => const { Code::new(428) },
+            Self::Opens { .. } => const { Code::new(429) },
             Self::Saddle { .. } => const { Code::new(424) },
             Self::Interrupted { .. } => const { Code::new(8) },
         }
@@ -295,7 +314,7 @@ pub enum MotionError {
         expected: &'static str,
     },
     /// Two options cannot be combined.
-    #[error("{chosen} does not go with {with}: {why}")]
+    #[error("{chosen} cannot be combined with {with}: {why}")]
     Combination {
         /// The first option.
         chosen: &'static str,
@@ -304,7 +323,7 @@ pub enum MotionError {
         /// Reason.
         why: &'static str,
     },
-    /// There is no consistent start.
+    /// No consistent start exists.
     #[error(transparent)]
     Start(#[from] StartError),
     /// The constraint matrix at the start cannot be analysed.
@@ -413,8 +432,7 @@ fn undecided(doubt: &Doubt) -> String {
             sigma_max,
             tolerance,
         } => format!(
-            "tolerance {tolerance} exceeds the largest singular value {sigma_max}: positions are too inaccurate for any rank; place the mechanism \
-             nearer to the origin",
+            "tolerance {tolerance} exceeds the largest singular value {sigma_max}: positions are too inaccurate for a rank decision; place the mechanism nearer to the origin",
             tolerance = short(tolerance),
             sigma_max = short(sigma_max)
         ),
@@ -427,8 +445,8 @@ fn implied(drives: &[String]) -> String {
     let names: Vec<String> = drives.iter().map(|name| format!("`{name}`")).collect();
     match names.as_slice() {
         [] => "compare the dimensions of its joint with those that `pfaff analyze` lists with it under \"Why\"".to_owned(),
-        [only] => format!("{only} prescribes a motion that the joints allowed there and forbid here"),
-        all => format!("the drives {}, which implied each other there, contradict each other here", listed(all)),
+        [only] => format!("{only} prescribes a motion that the joints allowed at the start and prevent here"),
+        all => format!("the drives {}, which implied each other at the start, contradict each other here", listed(all)),
     }
 }
 

@@ -32,7 +32,7 @@ pub struct ReactionImpulse {
     /// The joint or drive.
     pub id: ConstraintId,
     /// The components that are not identically zero, and the component that the joint type defines.
-    /// Each has its name and its value (N·s, N·m·s), with the verdict at this instant.
+    /// Each component has its name and its value (N·s, N·m·s), with the verdict at this instant.
     pub components: Vec<(&'static str, Value)>,
 }
 
@@ -62,6 +62,8 @@ pub enum EventKind {
     SingularPassage,
     /// A prescribed rate jumped, and therefore the velocities also jumped.
     Impulse,
+    /// One-sided joints open; the run ends.
+    Lifts,
     /// Generated code became unreliable: the equations are interpreted from this time on.
     CodeLeft,
     /// Generated code is used again.
@@ -74,7 +76,7 @@ impl EventKind {
     pub fn cuts(self) -> bool {
         match self {
             Self::RowsExchanged | Self::SingularPassage | Self::Impulse => true,
-            Self::CodeLeft | Self::CodeUsed => false,
+            Self::Lifts | Self::CodeLeft | Self::CodeUsed => false,
         }
     }
 
@@ -85,6 +87,7 @@ impl EventKind {
             Self::RowsExchanged => "rows-exchanged",
             Self::SingularPassage => "singular-passage",
             Self::Impulse => "impulse",
+            Self::Lifts => "lifts",
             Self::CodeLeft => "code-left",
             Self::CodeUsed => "code-used",
         }

@@ -74,36 +74,36 @@ pub(crate) const QUATERNION_LENGTHS: RangeInclusive<f64> = 0.5..=2.0;
 
 // Equilibria.
 
-/// A run is at rest if its kinetic energy and its energy error are below this number of roundings
-/// of the potential energy. Unit: roundings. Too small: a start at rest causes a warning. Too
-/// large: energy errors of slow motions are not reported. Test:
+/// A run is at rest if its kinetic energy and its energy error are below this number of rounding
+/// errors of the potential energy. Unit: roundings. Too small: a start at rest causes a warning.
+/// Too large: energy errors of slow motions are not reported. Test:
 /// `what_is_written_starts_at_rest_and_stays_there`.
 pub(crate) const ENERGY_ROUNDINGS: f64 = 64.0;
 
-/// Prescribed rates below this count as zero. Unit: sizes or rad per second. Too small: the
-/// rounding error of a cosine at a quarter turn counts as a motion. Too large: slow drives count as
-/// locked. Test: `a_drive_that_moves_at_the_start_is_refused_by_name`.
+/// Prescribed rates below this count as zero. Unit: sizes of the mechanism per second, or rad/s.
+/// Too small: the rounding error of a cosine at a quarter turn counts as a motion. Too large: slow
+/// drives count as locked. Test: `a_drive_that_moves_at_the_start_is_refused_by_name`.
 pub(crate) const RESTING_RATE: f64 = 1e-12;
 
 /// Step length of the finite differences of forces; the longest of the steps is four times as long.
-/// Unit: share of the size, or rad. Too small: the rounding error is divided by a shorter step. Too
-/// large: the stiffness of short springs is inaccurate. Test:
+/// Unit: share of the size of the mechanism, or rad. Too small: the rounding error is divided by a
+/// shorter step. Too large: the stiffness of short springs is inaccurate. Test:
 /// `a_short_spring_on_a_long_bar_is_stiff_enough`.
 pub(crate) const STIFFNESS_STEP: f64 = 1.0 / 512.0;
 
-/// Initial limit of the step length, for each body. Unit: share of the size, or rad. Too small: the
-/// search takes more steps. Too large: the search may find an equilibrium that is not the nearest.
-/// Test: none, work only.
+/// Initial limit of the step length, for each body. Unit: share of the size of the mechanism, or
+/// rad. Too small: the search takes more steps. Too large: the search may find an equilibrium that
+/// is not the nearest. Test: none, work only.
 pub(crate) const REST_RADIUS: f64 = 0.1;
 
-/// Upper limit of the step length, for each body. Unit: share of the size, or rad. Too small: the
-/// search takes more steps. Too large: the search may find an equilibrium that is not the nearest.
-/// Test: none, work only.
+/// Upper limit of the step length, for each body. Unit: share of the size of the mechanism, or rad.
+/// Too small: the search takes more steps. Too large: the search may find an equilibrium that is
+/// not the nearest. Test: none, work only.
 pub(crate) const REST_LONGEST: f64 = 0.8;
 
-/// The search ends if its steps become shorter than this. Unit: share of the size, or rad. Too
-/// small: failing searches take longer. Too large: searches end early that could continue. Test:
-/// none, work only.
+/// The search ends if its steps become shorter than this. Unit: share of the size of the mechanism,
+/// or rad. Too small: failing searches take longer. Too large: searches end early that could
+/// continue. Test: none, work only.
 pub(crate) const REST_SHORTEST: f64 = 1e-10;
 
 /// Maximum number of steps of a search. Unit: steps. Too small: distant equilibria are not found.
@@ -115,7 +115,7 @@ pub(crate) const REST_STEPS: usize = 500;
 /// allowed. Too large: the search takes longer. Test: none, work only.
 pub(crate) const REST_BISECTIONS: usize = 50;
 
-/// Remaining forces below this number of roundings of the acting forces count as zero. Unit:
+/// Remaining forces below this number of rounding errors of the acting forces count as zero. Unit:
 /// roundings. Too small: searches continue until they stall. Too large: the equilibrium position
 /// loses digits. Test: `a_pendulum_on_a_torsion_spring_leans_as_bisection_says`.
 pub(crate) const REST_ROUNDINGS: f64 = 16.0;
@@ -132,8 +132,9 @@ pub(crate) const REST_LEFT: f64 = 4096.0;
 pub(crate) const REST_STALLED: usize = 4;
 
 /// Length of the displacement with which a search leaves an unstable equilibrium. Unit: share of
-/// the size, or rad. Too small: the forces at the displaced configuration are rounding errors. Too
-/// large: a shallow equilibrium nearby is skipped. Test: `a_push_lets_an_upright_pendulum_fall`.
+/// the size of the mechanism, or rad. Too small: the forces at the displaced configuration are
+/// rounding errors. Too large: a shallow equilibrium nearby is skipped. Test:
+/// `a_push_lets_an_upright_pendulum_fall`.
 pub(crate) const REST_PUSH: f64 = 1e-2;
 
 /// Maximum number of displacements from unstable equilibria. Unit: pushes. Too small: the search
@@ -141,9 +142,10 @@ pub(crate) const REST_PUSH: f64 = 1e-2;
 /// `a_push_lets_an_upright_pendulum_fall`.
 pub(crate) const REST_PUSHES: usize = 40;
 
-/// A motion counts as unresisted if a unit displacement changes its force by at most this share of
-/// all forces. Unit: share. Too small: rounding counts as stiffness. Too large: soft springs are
-/// ignored. Test: `what_nothing_holds_is_refused_with_what_pushes_it`.
+/// A motion counts as free of resistance if a unit displacement along it changes its generalised
+/// force by at most this share of all forces. Unit: share. Too small: a rounding error counts as
+/// stiffness. Too large: soft springs are ignored. Test:
+/// `what_nothing_holds_is_refused_with_what_pushes_it`.
 pub(crate) const UNRESISTED: f64 = 1e-9;
 
 /// An unresisted motion is rejected if its force is more than this share of the largest force.
@@ -184,9 +186,9 @@ pub(crate) const ASYMMETRIC: f64 = 1e-7;
 // Linearised motions.
 
 /// Step length along a curve; the longest of the eight steps is four times as long. Unit: share of
-/// the size, or rad. Too small: the rounding error, 1e-16, is divided by a shorter step. Too large:
-/// the truncation error, which grows with the eighth power of the step, is no longer negligible.
-/// Test: `a_pendulum_has_the_matrices_of_its_textbook`.
+/// the size of the mechanism, or rad. Too small: the rounding error, 1e-16, is divided by a shorter
+/// step. Too large: the truncation error, which grows with the eighth power of the step, is no
+/// longer negligible. Test: `a_pendulum_has_the_matrices_of_its_textbook`.
 pub(crate) const LINEARISE_STEP: f64 = 1.0 / 128.0;
 
 /// Derivatives of two different orders may differ by at most this share of the largest derivative.
@@ -237,9 +239,10 @@ pub(crate) const ZERO_ENTRY: f64 = 16.0 * f64::EPSILON;
 pub(crate) const NEITHER: f64 = 1e-9;
 
 /// The free share of a direction is the part that the directions chosen before do not determine.
-/// The first direction is chosen whose free share is at least this fraction of the largest one.
-/// Unit: share. Too small: the chosen coordinates may be nearly dependent. Too large: rounding
-/// decides which coordinates are chosen. Test: `a_pendulum_has_the_matrices_of_its_textbook`.
+/// The first direction with a free share of at least this fraction of the largest free share is
+/// chosen. Unit: share. Too small: the chosen coordinates may be nearly dependent. Too large: a
+/// rounding error decides which coordinates are chosen. Test:
+/// `a_pendulum_has_the_matrices_of_its_textbook`.
 pub(crate) const CHOSEN_PIVOT: f64 = 0.3;
 
 /// A direction is determined by the chosen directions if less than this share of it is free. Unit:
@@ -265,8 +268,8 @@ pub(crate) const CODE_CORRECTIONS: usize = 6;
 /// `it_is_where_its_drive_is_by_every_method`.
 pub(crate) const VELOCITY_CORRECTIONS: usize = 3;
 
-/// Independent rows count as satisfied if their residual is below this number of roundings of their
-/// terms. Unit: roundings. Too small: each step needs one more correction. Too large: the
+/// Independent rows count as satisfied if their residual is below this number of rounding errors of
+/// their terms. Unit: roundings. Too small: each step needs one more correction. Too large: the
 /// constraints drift. Test: `rows_are_corrected_until_they_are_satisfied_or_stall_close_to_it`.
 pub(crate) const ROUNDINGS: f64 = 10.0;
 
@@ -287,7 +290,7 @@ pub(crate) const WEAK: f64 = 0.5;
 pub(crate) const READ_ROTATION: f64 = 8.0;
 
 /// If a further correction does not help, independent rows count as satisfied below this number of
-/// roundings. The same limit applies to generated code, which cannot compute more accurate
+/// rounding errors. The same limit applies to generated code, which cannot compute more accurate
 /// residuals. Unit: roundings. Too small: projections fail because of rounding. Too large: the
 /// constraints drift. Test: `rows_are_corrected_until_they_are_satisfied_or_stall_close_to_it`.
 pub(crate) const STALLED_ROUNDINGS: f64 = 50.0;
@@ -302,20 +305,20 @@ pub(crate) const CONVERGENCE: f64 = 0.1;
 /// These are its own terms, and the terms of the independent rows times their coefficients. For
 /// example, the terms of a row with an arm of 1e30 m do not limit the violation of an angle. Unit:
 /// share of terms. Too small: rounding errors of the independent rows, 1e-15, cause good steps to
-/// be rejected. Too large: rows that start to differ are detected late. Test:
+/// be rejected. Too large: contradictions between rows are detected late. Test:
 /// `drives_that_contradict_each_other_later_stop_the_run_and_keep_its_rows`.
 pub(crate) const DROPPED_MISFIT: f64 = 1e-11;
 
 /// A constraint violation that grows by less than this share counts as unchanged, and the time of
-/// its first occurrence is reported. Unit: share of the misfit. Too small: rounding decides the
-/// time of a constant violation. Too large: the reported time of a growing violation is too early.
-/// Test: `a_door_on_two_hinges_misses_by_their_distance`.
+/// its first occurrence is reported. Unit: share of the misfit. Too small: a rounding error decides
+/// the time of a constant violation. Too large: the reported time of a growing violation is too
+/// early. Test: `a_door_on_two_hinges_misses_by_their_distance`.
 pub(crate) const SAME_MISFIT: f64 = 1e-9;
 
 /// However slow the motion is, the velocities of redundant rows may differ by this share of the
-/// size of the mechanism per duration of the run. The share is some hundred roundings. Unit: share
-/// of size. Too small: mechanisms at rest are rejected. Too large: slow contradictions are not
-/// detected. Test: `limits_stand_in_their_order`.
+/// size of the mechanism per duration of the run. The share is some hundred rounding errors. Unit:
+/// share of size. Too small: mechanisms at rest are rejected. Too large: slow contradictions are
+/// not detected. Test: `limits_stand_in_their_order`.
 pub(crate) const AT_REST: f64 = 1e-13;
 
 /// The residual of a redundant row of Φ must not exceed this share of its own terms, however large
@@ -339,9 +342,9 @@ pub(crate) const CODE_AT_REST: f64 = 1e-4;
 // Independent coordinates.
 
 /// A partition into independent and dependent coordinates is replaced if its pivots have fallen
-/// below this share of the pivots at its choice. They must not fall so far within a step that rows
-/// are left out. Unit: share of pivots. Too small: the completion of states fails within a step.
-/// Too large: linear systems are set up repeatedly. Test:
+/// below this share of the pivots at its choice. Within a step, the pivots must not fall so far
+/// that rows are omitted. Unit: share of pivots. Too small: the completion of states fails within a
+/// step. Too large: linear systems are set up repeatedly. Test:
 /// `partitions_are_renewed_as_a_blade_turns`.
 pub(crate) const PARTITION_WORN: f64 = 0.5;
 
@@ -358,8 +361,8 @@ pub(crate) const FAR_COMPLETION: f64 = 0.6;
 pub(crate) const FAR_EXTRAPOLATED: f64 = 2.0;
 
 /// Allowed distance between the end of a step and the position predicted from the velocities at
-/// both ends. Unit: share of the largest way on it. Too small: steps of curved motions are
-/// rejected. Too large: the motion changes to another branch. Test: none.
+/// both ends. Unit: share of the largest displacement along the motion. Too small: steps of curved
+/// motions are rejected. Too large: the motion changes to another branch. Test: none.
 pub(crate) const FAR_IN_A_STEP: f64 = 0.5;
 
 /// Allowed distance in addition to [`FAR_IN_A_STEP`]; it applies even if the mechanism does not
@@ -454,15 +457,15 @@ pub(crate) const FORESIGHT: f64 = 12.0;
 
 /// Implicit methods are replaced by `dop853` this number of steps before a singular configuration;
 /// explicit methods as soon as it is predicted. Unit: steps. Too small: implicit methods step over
-/// it themselves and fail. Too large: explicit steps are made under stiff forces. Test:
-/// `a_grip_of_1e12_takes_few_steps`.
+/// the singular configuration and fail. Too large: explicit steps are made under stiff forces.
+/// Test: `a_grip_of_1e12_takes_few_steps`.
 pub(crate) const IMPLICIT_REACH: f64 = 4.0;
 
 /// Limit for the constraint violation that the rounding error of the coordinates causes. Above this
 /// limit, stages are moved onto the constraints as soon as a singular configuration is predicted.
-/// Unit: share of the size. Too small: steps towards the singular configuration lose the order of
-/// accuracy of the method. Too large: steps through singular configurations far from the origin
-/// fail. Test: `parallelograms_pass_their_flat_poses_at_speed`.
+/// Unit: share of the size of the mechanism. Too small: steps towards the singular configuration
+/// lose the order of accuracy of the method. Too large: steps through singular configurations far
+/// from the origin fail. Test: `parallelograms_pass_their_flat_poses_at_speed`.
 pub(crate) const COARSE: f64 = 1e-13;
 
 /// Smallest weight of a component near zero in the error norm of a step over a singular
@@ -475,12 +478,13 @@ pub(crate) const LEAST_SCALE: f64 = 0.1;
 /// Relative error that rounding may cause in a step over a singular configuration if the steps are
 /// short. A limit of 1e-10 was not enough at a tolerance of 1e-10 if the run switched to the
 /// interpreter before the singular configuration. Unit: 1. Too small: the step size collapses
-/// before the singular configuration. Too large: the step over it loses digits. Test: none.
+/// before the singular configuration. Too large: the step over the singular configuration loses
+/// digits. Test: none.
 pub(crate) const PASSED: f64 = 1e-9;
 
 /// Largest correction of a step over a singular configuration. Unit: share of the distance at which
-/// it ends: other branches are as far away as that. Too small: runs stop before the singular
-/// configuration. Too large: the motion changes to another branch. Test:
+/// the step ends; other branches are at a similar distance. Too small: runs stop before the
+/// singular configuration. Too large: the motion changes to another branch. Test:
 /// `a_run_may_end_in_the_flat_pose_or_beside_it`.
 pub(crate) const SMOOTH: f64 = 0.01;
 
@@ -531,15 +535,15 @@ pub(crate) const SHARP: f64 = 1e-7;
 /// Too large: the search takes longer. Test: `forty_four_bars_are_where_one_angle_says`.
 pub(crate) const BEYOND: f64 = 1.5;
 
-/// A pivot that falls to this share of the present one and rises again counts as vanishing, because
-/// the predicted path is only a parabola. Unit: share of the present pivot. Too small: singular
+/// A pivot that falls to this share of the current one and rises again counts as vanishing, because
+/// the predicted path is only a parabola. Unit: share of the current pivot. Too small: singular
 /// configurations are not predicted. Too large: steps avoid regular configurations. Test:
 /// `limits_stand_in_their_order`.
 pub(crate) const VANISHES: f64 = 0.2;
 
-/// A search is made if a pivot falls below this share of the present one at one of [`GLANCES`]
+/// A search is made if a pivot falls below this share of the current one at one of [`GLANCES`]
 /// instants. A pivot that vanishes between two of these instants is detected, unless it vanishes
-/// much earlier than expected. Unit: share of the present pivot. Too small: singular configurations
+/// much earlier than expected. Unit: share of the current pivot. Too small: singular configurations
 /// are not predicted. Too large: the search takes longer. Test: `limits_stand_in_their_order`.
 pub(crate) const STAYS: f64 = 0.75;
 
@@ -550,7 +554,7 @@ pub(crate) const GLANCES: usize = 6;
 
 /// A pivot has a minimum between two instants if it falls to this share of both neighbouring
 /// values. A pivot that is small at an end of the searched interval has no minimum there. Unit:
-/// share of the pivots at the neighbouring places. Too small: singular configurations are not
+/// share of the pivots at the neighbouring samples. Too small: singular configurations are not
 /// found. Too large: one singular configuration is reported twice. Test:
 /// `a_driven_parallelogram_goes_on_smoothly_and_says_so`.
 pub(crate) const RISES: f64 = 0.5;
@@ -585,14 +589,15 @@ pub(crate) const BESIDE: f64 = 0.02;
 
 // Jumps.
 
-/// Residuals below this share of the terms of their row do not count as jumps. For rates, the terms
-/// of the largest row are used. Unit: share of terms. Too small: a rounding error counts as an
-/// impulse. Too large: small jumps are not reported. Test: `smooth_steps_are_no_jumps`.
+/// Residuals below this share of the terms of their row do not count as jumps. For rates, the sum
+/// of the terms of the largest row is the reference. Unit: share of terms. Too small: a rounding
+/// error counts as an impulse. Too large: small jumps are not reported. Test:
+/// `smooth_steps_are_no_jumps`.
 pub(crate) const NO_JUMP: f64 = 1e-9;
 
-/// A continuous function changes much more between two times that are this number of roundings
-/// apart than between neighbouring floating-point numbers. Unit: roundings. Too small: rounding
-/// errors hide the change. Too large: other changes are included. Test:
+/// A continuous function changes much more between two times that are this number of rounding
+/// errors apart than between neighbouring floating-point numbers. Unit: roundings. Too small:
+/// rounding errors hide the change. Too large: other changes are included. Test:
 /// `smooth_steps_are_no_jumps`.
 pub(crate) const WIDE: f64 = 1e6;
 
@@ -604,8 +609,8 @@ pub(crate) const REMAINS: f64 = 0.5;
 // Rows of output.
 
 /// Allowed distance between an output row and the cubic through both ends of its step. Unit: share
-/// of the way of the step. Too small: good output rows are rejected. Too large: output rows on
-/// another branch are accepted. Test: `rows_lie_where_their_step_leads`.
+/// of the displacement of the step. Too small: good output rows are rejected. Too large: output
+/// rows on another branch are accepted. Test: `rows_lie_where_their_step_leads`.
 pub(crate) const ROW_DEVIATION: f64 = 0.25;
 
 /// Allowed distance in addition to [`ROW_DEVIATION`]; it applies even if the mechanism does not
@@ -632,13 +637,14 @@ pub(crate) const AHEAD: usize = 64;
 
 /// A run stops using generated code below this health, because the interpreter must detect a
 /// singular configuration in advance. A run does not start with code below this health. Unit: share
-/// of the generator's pivots. Too small: generated code reaches singular configurations. Too large:
-/// a run stops using code that is still accurate. Test: `limits_stand_in_their_order`.
+/// of the pivots for which the code was generated. Too small: generated code reaches singular
+/// configurations. Too large: a run stops using code that is still accurate. Test:
+/// `limits_stand_in_their_order`.
 pub const LEAVE: f64 = 0.1;
 
-/// A run uses generated code again above this health. Unit: share of the generator's pivots. Too
-/// small: the run switches frequently. Too large: the code is not used again. Test:
-/// `limits_stand_in_their_order`.
+/// A run uses generated code again above this health. Unit: share of the pivots for which the code
+/// was generated. Too small: the run switches frequently. Too large: the code is not used again.
+/// Test: `limits_stand_in_their_order`.
 pub(crate) const RETURN: f64 = 0.3;
 
 /// Number of accepted steps before generated code is used again for the first time. The number
@@ -647,8 +653,8 @@ pub(crate) const RETURN: f64 = 0.3;
 pub(crate) const PATIENCE: u64 = 8;
 
 /// Largest allowed difference between the accelerations of generated code and of the interpreter
-/// when the run uses the code again. Unit: share of the largest. Too small: rounding errors prevent
-/// the use of code. Too large: wrong code is used again. Test: none.
+/// when the run uses the code again. Unit: share of the largest value. Too small: rounding errors
+/// prevent the use of code. Too large: wrong code is used again. Test: none.
 pub(crate) const SAME_ACCELERATIONS: f64 = 1e-9;
 
 /// Allowed difference between the values of generated code and of the interpreter at the start and
@@ -717,7 +723,7 @@ impl MotionOptions {
     /// `motions_without_stated_tolerances_have_the_digits_that_are_read`.
     pub const RTOL: f64 = 1e-8;
 
-    /// Default absolute tolerance. Unit: m, rad, and these per second. Too small or too large: the
+    /// Default absolute tolerance. Unit: m or rad, and m/s or rad/s. Too small or too large: the
     /// effects are the same as for the relative tolerance. Test:
     /// `motions_without_stated_tolerances_have_the_digits_that_are_read`.
     pub const ATOL: f64 = 1e-10;
@@ -731,8 +737,8 @@ impl MotionOptions {
     pub const RTOL_EXPECTED: &str = "a number from 1e-15 (rounding) to 0.1";
 
     /// Maximum number of output rows. For a hundred bodies with six values each, the output then
-    /// takes some 100 GB. Unit: rows. Too small: long runs are rejected. Too large: disks are
-    /// filled. Test: `runs_that_would_never_end_are_refused_by_name`.
+    /// takes some 100 GB. Unit: rows. Too small: long runs are rejected. Too large: the table of a
+    /// run fills the disk. Test: `runs_that_would_never_end_are_refused_by_name`.
     pub const MOST_ROWS: f64 = 1e7;
 
     /// Default maximum number of accepted and rejected steps. Unit: steps. Too small: long runs are
@@ -740,6 +746,15 @@ impl MotionOptions {
     /// `runs_that_would_never_end_are_refused_by_name`.
     pub const MAX_STEPS: u64 = 1_000_000;
 }
+
+/// Accuracy of the instant at which one-sided joints open, relative to the time. Unit:
+/// dimensionless. Too small: rounding decides. Too large: the instant is late. Test:
+/// `a_body_leaves_its_supports_at_the_instant_of_the_closed_form`.
+pub(crate) const OPENING_TIME: f64 = 1e-15;
+
+/// Maximum number of states at which this instant is searched. Unit: states. Too small: the instant
+/// is inaccurate. Too large: the search takes long. Test: none, work only.
+pub(crate) const OPENING_SEARCH: usize = 80;
 
 #[cfg(test)]
 mod tests {
@@ -752,16 +767,19 @@ mod tests {
         let rows: [(&str, &[f64]); 11] = [
             ("roundings", &[FEW_ROUNDINGS, ROUNDINGS, STALLED_ROUNDINGS]),
             (
-                "rows come back where others are not lost",
+                "a row becomes independent again without the loss of another row",
                 &[PIVOT_LOSS, PIVOT_RECOVERY],
             ),
             (
-                "rows are corrected further before others replace them",
+                "rows are corrected further before other rows replace them",
                 &[PIVOT_LOSS, PIVOT_RECOVERY, WEAK, 1.0],
             ),
-            ("code comes back where it is not left", &[LEAVE, RETURN]),
             (
-                "rows are left out where no step ends",
+                "generated code is used again although its pivots have not decreased",
+                &[LEAVE, RETURN],
+            ),
+            (
+                "output rows are omitted although no step ends near them",
                 &[PIVOT_SINGULAR, NEAREST],
             ),
             (
@@ -770,7 +788,7 @@ mod tests {
             ),
             ("delicate rows are not sound", &[DELICATE, SOUND, 1.0]),
             (
-                "reactions are reported where steps end",
+                "reactions are reported only at ends of steps",
                 &[NO_REACTIONS, NEAREST, NO_REACTIONS_MAX],
             ),
             (

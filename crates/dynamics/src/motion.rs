@@ -375,7 +375,7 @@ impl<'m> KeptRowMotion<'m> {
     }
 
     /// Moves the end of a step that passed its error test onto the constraint manifold, or computes
-    /// its residuals. Selects other independent rows if the present ones are ill-conditioned there.
+    /// its residuals. Selects other independent rows if the current ones are ill-conditioned there.
     /// If `has_to_end` is true, the step ends at t whatever the configuration. Events are reported
     /// when the step is accepted.
     pub(crate) fn end_step(

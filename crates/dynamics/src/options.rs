@@ -161,7 +161,7 @@ impl MotionOptions {
                 "output_step",
                 self.output_step,
                 self.t_end / self.output_step <= Self::MOST_ROWS || self.t_end == 0.0,
-                "at least t_end/1e7: more rows are too many to write",
+                "at least t_end/1e7, because the table would have too many rows",
             ),
             (
                 "rtol",
@@ -182,7 +182,9 @@ impl MotionOptions {
             return max_step("a time > 0");
         }
         if self.t_end / self.max_step > self.max_steps as f64 {
-            return max_step("at least t_end/max_steps: the run would never end");
+            return max_step(
+                "at least t_end/max_steps, because otherwise the run cannot reach its end",
+            );
         }
         for (name, value, right, expected) in numbers {
             if !(right && value.is_finite()) {

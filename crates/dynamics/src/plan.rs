@@ -1,6 +1,6 @@
-//! The plan of a run: the computations of the run and the computations that it omits. They are
-//! decided once from a prepared mechanism, its options and the requested output. Each decision has
-//! a reason and states what it saves; a run follows its plan ([`crate::simulate`]). Other modules
+//! The plan of a run: the computations of the run and the computations that it omits. A plan is
+//! made once from a prepared mechanism, its options and the requested output. Each decision has a
+//! reason and states what it saves; a run follows its plan ([`crate::simulate`]). Other modules
 //! contain the computations.
 
 mod component;
@@ -49,8 +49,8 @@ pub struct OutputRequest {
 /// Verdicts that are computed with reactions.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Verdicts {
-    /// Verdicts for time intervals, and for the instants that differ from them. They are computed
-    /// at accepted steps and output rows.
+    /// Verdicts for time intervals, and for the instants that differ from them. These verdicts are
+    /// computed at accepted steps and output rows.
     WithInstants,
     /// Verdicts on the whole run. They are computed at the start, and in each time interval at the
     /// end of its first accepted step and at the start of its last step. If a verdict is still
@@ -84,8 +84,8 @@ pub enum Rows {
     #[default]
     Every,
     /// Rows at the same times, but with the states that are interpolated within steps. These states
-    /// violate the constraints by about the tolerance of the run. This is for callers that project
-    /// the states anyway.
+    /// violate the constraints by about the tolerance of the run. This function is for callers that
+    /// project the states anyway.
     Interpolated,
     /// At time 0 and at the end.
     Ends,
@@ -166,7 +166,7 @@ impl<'a> Plan<'a> {
         let groups = wanted_groups(prepared, wanted)?;
         let code = code(prepared, options)?;
         let (apart, parts) = if code.value {
-            split::stays("the generated code has all bodies".to_owned())
+            split::stays("the generated code contains all bodies".to_owned())
         } else {
             split::split(prepared)?
         };

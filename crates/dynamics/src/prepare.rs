@@ -185,7 +185,7 @@ impl PreparedMechanism {
     }
 }
 
-/// Assembles the start, decides the rank there, chooses rows, and makes the velocities consistent.
+/// Assembles the start, decides its rank, chooses rows, and makes the velocities consistent.
 ///
 /// # Errors
 /// - [`MotionError::Start`]: no consistent configuration or velocities exist.
@@ -337,10 +337,11 @@ pub fn unmovable(mechanism: &Mechanism, found: &Rows, q: &[f64]) -> Option<Motio
         })
 }
 
-/// Velocities of an assembled start, see [`consistent_velocity`], and a contradiction between
-/// accelerations there, if any. Such a contradiction exists if redundant rows allow the velocities
-/// but no motion that starts with them. Rows that contradict each other for all initial velocities,
-/// such as rows of drives, are reported before given velocities that contradict the rows.
+/// Velocities of an assembled start, see [`consistent_velocity`], and a contradiction between the
+/// accelerations at the start, if any. Such a contradiction exists if redundant rows allow the
+/// velocities but no motion that starts with them. Rows that contradict each other for all initial
+/// velocities, such as rows of drives, are reported before given velocities that contradict the
+/// rows.
 ///
 /// # Errors
 /// - [`MotionError::Start`]: the given velocities are impossible.

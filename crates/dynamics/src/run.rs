@@ -6,6 +6,7 @@ use std::ops::ControlFlow;
 mod by_time;
 mod caller;
 mod component;
+mod contacts;
 mod energy;
 mod equations;
 mod impulse;
@@ -117,8 +118,8 @@ impl Plan<'_> {
     }
 
     /// Like [`Plan::simulate_watched`], but `evaluator` evaluates the code of the mechanism and
-    /// must return the results of this code. This is for callers that evaluate several runs at
-    /// once. A plan without code runs as usual.
+    /// must return the results of this code. This function is for callers that evaluate several
+    /// runs at the same time. A plan without code runs as usual.
     ///
     /// # Errors
     /// Returns the same errors as [`Plan::simulate`].

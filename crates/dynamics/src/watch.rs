@@ -1,5 +1,5 @@
 //! Monitors of a motion: pivots, independent rows that become ill-conditioned, singular
-//! configurations, and unreliable generated code. They check the states at the ends of steps
+//! configurations, and unreliable generated code. The checks read the states at the ends of steps
 //! without changing them; the result is a [`Next`]. The module [`crate::manifold`] computes the
 //! residuals of redundant rows.
 //!

@@ -26,7 +26,7 @@ pub trait StepControl {
 /// Constants of the controller, chosen by each method.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct ControlConstants {
-    /// α, exponent of the present error.
+    /// α, exponent of the current error.
     pub(crate) alpha: f64,
     /// β, exponent of the previous error; 0 gives the classical controller.
     pub(crate) beta: f64,

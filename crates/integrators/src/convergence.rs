@@ -58,8 +58,8 @@ impl Default for Convergence {
 }
 
 impl Convergence {
-    /// Returns the state for the next solve. Its first iteration uses the bound on the remaining
-    /// error from this solve.
+    /// Returns the state for the next solve. The first iteration of the next solve uses the bound
+    /// on the remaining error from this solve.
     pub(crate) fn next(self) -> Self {
         Self {
             remaining: self.remaining.max(f64::EPSILON).powf(0.8),

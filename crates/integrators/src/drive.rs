@@ -21,7 +21,7 @@ const SMALLEST_STEP_IN_EPSILONS: f64 = 16.0;
 /// multiple of the step.
 const STRETCH: f64 = 1.01;
 /// Distance from an ill-conditioned time at which a step before this time ends, as a fraction of
-/// the largest distance that a step of the same size can go over.
+/// the largest distance that a step of the same size can cross.
 const LEFT_TO_PASS: f64 = 0.8;
 /// If a step ends before an ill-conditioned time at a distance of at most this multiple of its
 /// size, its error may exceed the tolerance by the [`slack`](Delicate::slack) of this time. A step
@@ -150,8 +150,8 @@ pub(crate) fn check<O: Ode>(
     interval.legs()
 }
 
-/// Returns whether a step goes over an ill-conditioned time, or ends at most [`NEAR`] times its
-/// size before it.
+/// Returns whether a step crosses an ill-conditioned time, or ends at most [`NEAR`] times its size
+/// before it.
 fn is_near(delicate: &Delicate, trial: &Trial<'_>) -> bool {
     let ahead = |t: f64| (delicate.t - t) / trial.h;
     ahead(trial.t) > 0.0 && ahead(trial.t1) < NEAR
@@ -309,9 +309,9 @@ impl<'a, E: std::error::Error + 'static> Run<'a, E> {
         finite(&self.states.y0).map_err(|component| failed(Cause::NonFinite { component }))
     }
 
-    /// Changes a step that would reach an ill-conditioned time, so that this or the next step goes
-    /// over it with the time in the widest gap between its nodes. If smaller steps would not
-    /// improve the result, the step goes over the time from as far away as the slack permits.
+    /// Changes a step that would reach an ill-conditioned time, so that this or the next step
+    /// crosses that time with the time in the widest gap between its nodes. If smaller steps would
+    /// not improve the result, the step goes over the time from as far away as the slack permits.
     fn step_over(&mut self, delicate: Delicate, gap: f64, order: i32) {
         let longest = match self.noise {
             Noise::None => 1.0,
@@ -333,7 +333,8 @@ impl<'a, E: std::error::Error + 'static> Run<'a, E> {
         self.h *= share;
     }
 
-    /// Returns the next trial. If it reaches the next break time or the end, it ends there exactly.
+    /// Returns the next trial. A trial that reaches the next break time or the end of the
+    /// integration ends exactly at this time.
     fn next_trial<'l>(&mut self, leg: &'l Leg) -> Result<Trial<'l>, IntegrationError<E>> {
         let (t, h) = (self.t, self.h);
         let steps = self.statistics.accepted + self.statistics.rejected();

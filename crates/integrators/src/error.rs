@@ -36,7 +36,7 @@ pub enum Cause<E: Error + 'static> {
         iterations: u32,
     },
     /// The hook returned [`crate::StepEnd::Reject`].
-    #[error("the hook at the end of the step rejects it")]
+    #[error("the hook at the end of the step rejects the step")]
     RejectedByHook,
 }
 
@@ -102,9 +102,9 @@ pub enum IntegrationError<E: Error + 'static> {
         /// End of the interval.
         t_end: f64,
     },
-    /// f could not be evaluated at the start or just after a break time, so a shorter step does not
-    /// help.
-    #[error("f(t, y) cannot be evaluated at t = {t}, where a step has to start: {cause}")]
+    /// f could not be evaluated at the start or just after a break time, so a shorter step is
+    /// useless.
+    #[error("f(t, y) cannot be evaluated at the start of a step, t = {t}: {cause}")]
     StartFailed {
         /// The time.
         t: f64,
@@ -132,7 +132,7 @@ pub enum IntegrationError<E: Error + 'static> {
     },
     /// `Options::max_steps` was reached.
     #[error(
-        "{steps} steps done at t = {t} (h = {h:.3e}) and t_end not reached: raise max_steps or loosen the tolerance"
+        "{steps} steps ended at t = {t} (h = {h:.3e}), before t_end: raise max_steps or loosen the tolerance"
     )]
     TooManySteps {
         /// Time reached.

@@ -18,8 +18,8 @@ pub struct Interval<'a> {
     /// End; may be smaller than `t0`.
     pub t_end: f64,
     /// Times at which f or one of its derivatives with respect to t jumps, in any order. A step
-    /// ends exactly at each of them. Times outside the interval are ignored; `t0` and `t_end` may
-    /// be included.
+    /// ends exactly at each of these times. Times outside the interval are ignored; `t0` and
+    /// `t_end` may be included.
     pub break_times: &'a [f64],
 }
 
@@ -60,7 +60,7 @@ impl Interval<'_> {
     }
 
     /// Checks the times and divides the interval at its break times, in the direction of
-    /// integration. There are no parts if t0 = t_end.
+    /// integration. The list of parts is empty if t0 = t_end.
     pub(crate) fn legs<E: Error + 'static>(&self) -> Result<Vec<Leg>, IntegrationError<E>> {
         let invalid = |name, value| Err(IntegrationError::InvalidTime { name, value });
         if !self.t0.is_finite() {

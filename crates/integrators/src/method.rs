@@ -113,8 +113,8 @@ const AHEAD: f64 = 0.45;
 
 /// Returns a relative position in the widest gap between nodes, where 0 and 1 also count as nodes.
 /// The result is the middle of the gap or `AHEAD`, whichever is smaller, but never less than the
-/// lower end of the gap. If the result is at most `AHEAD`, the step ends farther from the time at
-/// this position than it began.
+/// lower end of the gap. If the result is at most `AHEAD`, the step ends farther from the
+/// ill-conditioned time than it began.
 pub(crate) fn widest_gap(nodes: &[f64]) -> f64 {
     let all = || nodes.iter().copied().chain([0.0, 1.0]);
     let gap = |from: f64| (from, all().filter(|c| *c > from).fold(1.0, f64::min));

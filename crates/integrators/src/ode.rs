@@ -96,9 +96,9 @@ pub struct StepInfo<'a> {
     pub t0: f64,
     /// Time at the end of the step.
     pub t: f64,
-    /// Time at which f must be evaluated at the end of the step. It is `t`, except at a break time.
-    /// In this case it is the neighbouring floating-point number within the step, so that f has its
-    /// one-sided limit.
+    /// Time at which f must be evaluated at the end of the step. The time is `t`, except at a break
+    /// time. At a break time it is the neighbouring floating-point number within the step, so that
+    /// f has its one-sided limit.
     pub t_rhs: f64,
     /// Estimated local error in the weighted norm; at most 1, or the slack of an ill-conditioned
     /// time.

@@ -1,7 +1,7 @@
 //! Rows at given output times, as accurate as the accurate dense output and independent of the step
 //! size.
 //!
-//! It is intended for observers, together with events and other tasks. The function
+//! The type is intended for observers, together with events and other tasks. The function
 //! [`crate::sample()`] also integrates.
 
 use crate::error::IntegrationError;
@@ -17,8 +17,8 @@ pub enum OutputTimes {
     /// The times t0, t0 ± dt, t0 ± 2·dt, … and `t_end` exactly, with dt > 0. A multiple of dt
     /// within 1e-9·dt of `t_end` is replaced by `t_end`.
     Every(f64),
-    /// These times within the interval, including its ends. They must be strictly monotonic in the
-    /// direction of integration.
+    /// These times within the interval, including its ends. The times must be strictly monotonic in
+    /// the direction of integration.
     At(Vec<f64>),
 }
 

@@ -2,7 +2,7 @@
 
 use std::ops::Add;
 
-/// Counts of one integration. They are also complete after a failure.
+/// Counts of one integration. The counts are also complete after a failure.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 #[non_exhaustive]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]

@@ -22,7 +22,7 @@ pub enum OutputError<E: Error + 'static> {
         t1: f64,
     },
     /// `out` does not have the length of the state.
-    #[error("room for {found} components, the state has {expected}")]
+    #[error("the buffer has {found} components, the state has {expected}")]
     Length {
         /// Length of the state, n.
         expected: usize,
@@ -36,11 +36,12 @@ pub enum OutputError<E: Error + 'static> {
 
 /// An accepted step from (t0, y0) to (t1, y1); y1 is the state after projection by the hook.
 ///
-/// Both dense outputs give exactly y0 at t0 and y1 at t1. Their derivatives there are f(t0, y0) and
-/// f(t1, y1). Therefore both outputs are continuously differentiable over all steps between two
-/// break times, with and without projection. (The outputs of [`Radau5`](crate::Radau5) are
-/// continuous, and their derivatives are correct up to the error of the output.) Between the ends
-/// of a step, the outputs do not satisfy constraints, so project rows before writing them.
+/// The dense outputs of all methods equal y0 at t0 and y1 at t1. The derivatives of both at the
+/// ends are f(t0, y0) and f(t1, y1). Therefore both outputs are continuously differentiable over
+/// all steps between two break times, with and without projection. (The outputs of
+/// [`Radau5`](crate::Radau5) are continuous, and their derivatives are correct up to the error of
+/// the output.) Between the ends of a step, the outputs do not satisfy constraints, so project rows
+/// before writing them.
 pub struct Step<'a, O: Ode> {
     ode: &'a mut O,
     dense: &'a mut dyn Dense<O>,

@@ -34,7 +34,7 @@ pub enum CodeMismatch {
     },
     /// The code was generated for other independent rows.
     #[error(
-        "the code `{name}` keeps the {level} rows {}, this run {}",
+        "the code `{name}` was generated for the independent {level} rows {}, this run uses {}",
         from_one(found),
         from_one(expected)
     )]
@@ -96,7 +96,7 @@ pub enum CodeMismatch {
     },
     /// Two parameters that share one input of the code have different values in the mechanism.
     #[error(
-        "the code `{name}` takes {input} as one number, in the mechanism it is both {:.9e} and {:.9e}; generate it again with the key among `--inputs` that sets them apart",
+        "the code `{name}` uses one number for {input}, but the mechanism has both {:.9e} and {:.9e}; generate it again with a key in `--inputs` that distinguishes them",
         values[0], values[1]
     )]
     Parts {
@@ -111,7 +111,7 @@ pub enum CodeMismatch {
     /// the code was generated. The order of elimination depends on whether the value is zero.
     /// Without mass, the mass metric that defines the smallest position correction does not exist.
     #[error(
-        "the code `{name}` was generated for a positive {input}, in the mechanism it is 0; generate it again for a mechanism without it"
+        "the code `{name}` was generated for a positive {input}, but it is 0 in the mechanism; generate the code again"
     )]
     Massless {
         /// Name of the code.
@@ -120,7 +120,7 @@ pub enum CodeMismatch {
         input: String,
     },
     /// The number of inputs of the code differs from the number of its input names.
-    #[error("the code `{name}` names {found} inputs and does not take them")]
+    #[error("the code `{name}` lists {found} inputs but does not accept them")]
     Inputs {
         /// Name of the code.
         name: String,
@@ -141,7 +141,7 @@ fn from_one(rows: &[usize]) -> String {
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum NoCode {
-    /// There is no generated code.
+    /// The mechanism has no generated code.
     #[error("not provided")]
     None,
     /// The method needs more than the accelerations, for example their derivatives.
@@ -230,7 +230,7 @@ impl CodeInputs {
 enum At {
     /// At the start.
     Start,
-    /// At the start, near it, and between break times.
+    /// States at the start, near the start, and between break times.
     ManyStates,
 }
 

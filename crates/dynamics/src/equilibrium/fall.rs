@@ -3,8 +3,8 @@
 //!
 //! A common translation of all bodies of a set along a straight line does not change the joints and
 //! forces between them. It does not change joints and forces that depend on angles, either. If, in
-//! addition, only the weight and constant forces act on the set, their sum acts at every pose. Then
-//! the set has no equilibrium.
+//! addition, only the weight and constant forces act on the set, their sum acts at every pose. A
+//! set of bodies with such a force has no equilibrium.
 
 use linalg::DisjointSets;
 use linalg::kernels::norm;

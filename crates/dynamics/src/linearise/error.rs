@@ -38,7 +38,7 @@ pub enum LineariseError {
         /// The body with the largest error estimate.
         body: String,
     },
-    /// There is no coordinate with this name.
+    /// No coordinate has this name.
     #[error("there is no coordinate `{name}`: {hint}")]
     Coordinate {
         /// The name.
@@ -83,12 +83,11 @@ fn advice(moves: bool, falls: Option<&str>) -> String {
              support"
         ),
         None if moves => {
-            "follow the turning of the axes in which it is (`--follow BODY.wz`), or choose \
-                          another time"
+            "let the axes rotate with a body (`--follow BODY.wz`), or choose another time"
                 .to_owned()
         }
         None => {
-            "let `pfaff equilibrium` find a start at rest, or let dampers bring it there in a run"
+            "find an equilibrium with `pfaff equilibrium`, or simulate with dampers until the motion stops"
                 .to_owned()
         }
     }

@@ -14,7 +14,7 @@ pub struct Linearisation {
     pub time: f64,
     /// Coordinates of the state, n_q.
     pub q: Vec<f64>,
-    /// The positions in the state vector x. They are its first components.
+    /// The positions in the state vector x. The positions are the first components of x.
     pub positions: Vec<Coordinate>,
     /// The velocities in the state vector x. They follow the positions.
     pub velocities: Vec<Coordinate>,

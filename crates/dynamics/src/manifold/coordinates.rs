@@ -170,7 +170,7 @@ impl IndependentCoordinates {
     }
 
     /// The longest displacement along a column of C from the last accepted state to time t, at the
-    /// velocities of this state. It is in units of the mechanism.
+    /// velocities of this state, in units of the mechanism.
     fn way_to(&self, t: f64, at: &Evaluation<'_>) -> f64 {
         let velocities = self.accepted.v.iter().enumerate();
         let rates = velocities.map(|(j, v)| v.abs() / at.mechanism.space().unit(j, at.size));

@@ -87,8 +87,8 @@ pub(super) fn monitor(
     Ok(found)
 }
 
-/// Checks the redundant rows of Φ at the last evaluated pose. They are violated if the pose is on
-/// another branch of the independent rows.
+/// Checks the redundant rows of Φ at the last evaluated pose. Redundant rows are violated if the
+/// pose is on another branch of the independent rows.
 pub(super) fn check_positions(equations: &mut KeptEquations<'_>) -> Result<(), MotionFault> {
     let (at, rows) = (&equations.at, &mut equations.position);
     let check = Check {

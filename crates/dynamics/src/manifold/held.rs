@@ -5,7 +5,7 @@
 //! axes of a body also rotates the body about the third axis. Therefore the independent part is the
 //! twist about the axis relative to the orientation at the start of a step. For a relative
 //! quaternion (w, x, y, z) and the third axis, the twist is `2·atan2(z, w)`, which does not depend
-//! on x and y. To first order it is the coordinate in the Jacobian of an implicit method
+//! on x and y. To first order the twist is the coordinate in the Jacobian of an implicit method
 //! ([`crate::run`]). A completion does not change the twist, because the rows and the twist
 //! functions are solved together for all rotations.
 

@@ -15,7 +15,7 @@ use crate::solve::{KeptEquations, KeptRows};
 /// Which coordinates a correction moves.
 #[derive(Clone, Copy, PartialEq)]
 pub(super) enum Moves {
-    /// All coordinates, by the smallest correction in the mass metric.
+    /// All coordinates are corrected, by the smallest change in the mass metric.
     AllCoordinates,
     /// The dependent coordinates of the partition.
     DependentCoordinates,
@@ -220,7 +220,7 @@ pub(super) fn largest(x: &[f64]) -> f64 {
     x.iter().fold(0.0, |a: f64, x| a.max(x.abs()))
 }
 
-/// Number of roundings below which rows count as satisfied.
+/// Number of rounding errors below which rows count as satisfied.
 fn enough(rows: &KeptRows) -> f64 {
     if rows.relative_pivot() < WEAK {
         FEW_ROUNDINGS

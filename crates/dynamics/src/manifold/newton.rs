@@ -9,7 +9,7 @@ pub(super) trait Level {
     type Fault;
 
     /// Residual of the independent rows after this number of corrections: the worst row, and its
-    /// residual in roundings of its terms.
+    /// residual in rounding errors of its terms.
     fn misses(&mut self, corrections: usize) -> (usize, f64);
 
     /// Makes one correction; `converges` states whether the last correction reduced the residual to
@@ -21,7 +21,7 @@ pub(super) trait Level {
 pub(super) struct Limits {
     /// Smallest and largest number of corrections.
     pub(super) corrections: [usize; 2],
-    /// Rows count as satisfied below this number of roundings of their terms.
+    /// Rows count as satisfied below this number of rounding errors of their terms.
     pub(super) enough: f64,
     /// The limit that applies if a further correction does not help.
     pub(super) stalled: f64,

@@ -50,8 +50,8 @@ impl Manifold {
         Ok(())
     }
 
-    /// Moves q onto the constraint manifold and factors the rows there; returns the number of
-    /// corrections.
+    /// Moves q onto the constraint manifold and factors the rows at the result; returns the number
+    /// of corrections.
     pub(crate) fn settle(
         &mut self,
         equations: &mut KeptEquations<'_>,

@@ -44,11 +44,9 @@ fn numbers_out_of_range_are_refused_by_name() {
 
 #[test]
 fn runs_that_would_never_end_are_refused_by_name() {
-    let too_many_rows =
-        "output_step is 0.0000000001, need at least t_end/1e7: more rows are too many to write";
+    let too_many_rows = "output_step is 0.0000000001, need at least t_end/1e7, because the table would have too many rows";
     assert_eq!(said(|o| o.output_step = 1e-10), Err(too_many_rows.into()));
-    let too_many_steps =
-        "max_step is 0.000009, need at least t_end/max_steps: the run would never end";
+    let too_many_steps = "max_step is 0.000009, need at least t_end/max_steps, because otherwise the run cannot reach its end";
     assert_eq!(said(|o| o.max_step = 9e-6), Err(too_many_steps.into()));
 }
 

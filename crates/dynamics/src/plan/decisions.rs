@@ -1,5 +1,5 @@
 //! The decisions for one component. Each decision follows from a fact of the mechanism or of the
-//! options. The code that carries out the decision uses the same test.
+//! options. The code that executes the plan uses the same test.
 
 use linalg::GRADED_MASSES;
 use model::words::{estimate, rough};
@@ -127,7 +127,7 @@ fn elimination_of(
     let order = (n + rows) as u64;
     let whole = order * order * order / 3;
     let reason = format!(
-        "{INDEPENDENT_ROWS}, {entries} entries of C; saved against LU of the whole saddle matrix"
+        "{INDEPENDENT_ROWS}, {entries} entries of C; saved compared with an LU factorisation of the whole saddle matrix"
     );
     Decision::new([rows, n], format!("null space, {rows} × {n}"), reason).saving(
         whole.saturating_sub(all),
@@ -156,7 +156,7 @@ fn refinement(prepared: &PreparedMechanism) -> Result<Decision<bool>, MotionErro
     }
     let size = prepared.assembly.size;
     if prepared.is_far() {
-        let why = "far from 1 m: weights and centrifugal terms differ by many powers of ten";
+        let why = "the size is far from 1 m, so weights and centrifugal terms differ by many powers of ten";
         return decided(
             true,
             format!(
@@ -189,11 +189,11 @@ fn mobility(
         (0, 0) => ("none".to_owned(), "the constraints allow no motion"),
         (0, _) if by_time => (
             function(),
-            "driven, no free motion: stages lie on the constraints; each time of a step is evaluated once",
+            "driven, without free motions: all stages satisfy the constraints, and each time of a step is evaluated once",
         ),
         (0, _) => (
             function(),
-            "driven, no free motion; functions are evaluated once at each time",
+            "driven, without free motions; functions are evaluated once at each time",
         ),
         (n, _) => (format!("{n}"), "velocities minus independent rows"),
     };
@@ -219,7 +219,7 @@ fn nonholonomic(sizes: &Sizes) -> Decision<usize> {
 fn dropped(sizes: &Sizes) -> Decision<usize> {
     let reasons = [
         "all rows are independent: no row is monitored or exchanged",
-        "implied by the independent rows; not solved for",
+        "implied by the independent rows, so they are not solved",
     ];
     let decided = counted(sizes.redundancy(), reasons, " monitored");
     let rows = sizes.rows() as u64;
@@ -270,7 +270,7 @@ fn entries(work: &Work) -> Decision<usize> {
 
 fn gamma(sizes: &Sizes, work: &Work) -> Decision<usize> {
     let counts = (work.rows_of_gamma, sizes.rows());
-    let others = "belong to joints with constant C: Γ = 0";
+    let others = "their joints have constant C, so Γ = 0";
     evaluated(counts, "no joint has constant C", others, Cost::Gamma)
 }
 

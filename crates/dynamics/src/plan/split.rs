@@ -32,8 +32,15 @@ pub(super) fn split(
     if let Some(called) = whole.mechanism.applied_forces().called().next() {
         let kind = called.kind();
         return Ok(stays(format!(
-            "{kind} `{}` calls a function, which must be called by one thread in the order of time",
+            "{kind} `{}` calls a function, which a single thread must call in the order of time",
             called.name
+        )));
+    }
+    let groups = &whole.mechanism.layout().groups;
+    if let Some(sided) = groups.iter().find(|g| g.limits.open_side.is_some()) {
+        return Ok(stays(format!(
+            "`{}` may open, which ends the motion of all bodies",
+            sided.name
         )));
     }
     if n > MOST_COMPONENTS {

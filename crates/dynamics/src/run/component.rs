@@ -99,6 +99,7 @@ pub(super) fn run_component(
         Ok(o) => (o.t, o.y.clone(), o.statistics),
         Err(f) => (f.t, f.y.clone(), f.statistics),
     };
+    let t = run.ended.unwrap_or(t);
     let (verdicts, dropped) = run.equations.finish_verdicts(&groups, t).unzip();
     let summary = Summary {
         t,

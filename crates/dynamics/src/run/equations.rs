@@ -13,6 +13,7 @@ use solvability::{CarriedChoices, Group, InstantOrder, NamedChoice, Stretches};
 
 use super::by_time::ByTime;
 use super::caller::Stop;
+use super::contacts::RunContacts;
 use super::impulse::cross_break;
 use super::record::Record;
 use super::reduced::ReducedJacobian;
@@ -52,11 +53,13 @@ pub(super) struct RunEquations<'m> {
     carried_choices: Option<CarriedChoices<'m>>,
     /// Verdicts during the run, if reactions are requested.
     verdicts: Option<RunVerdicts<'m>>,
+    /// The one-sided joints, if there are any.
+    pub(super) contacts: Option<RunContacts>,
     /// Linear systems of implicit methods, allocated by their first step.
     reduced: Option<ReducedJacobian>,
     until: EndCondition<'m>,
     passing: Passing,
-    /// Whether stages of the present step were evaluated by generated code that is no longer in
+    /// Whether stages of the current step were evaluated by generated code that is no longer in
     /// use; then the step starts again.
     is_void: bool,
     /// The fault of the external function that ended the run because it returned no value.
@@ -74,7 +77,7 @@ struct Passing {
     /// Whether coordinates are so large relative to the mechanism that their rounding errors affect
     /// stages before a singular configuration.
     is_coarse: bool,
-    /// Whether the stages of the present step are moved onto the constraint manifold.
+    /// Whether the stages of the current step are moved onto the constraint manifold.
     is_careful: bool,
 }
 
@@ -111,6 +114,7 @@ impl<'m> RunEquations<'m> {
             choices,
             carried_choices,
             verdicts,
+            contacts: RunContacts::of(mechanism, options.output_step),
             reduced: None,
             until: EndCondition {
                 t_end: options.t_end,
@@ -170,8 +174,8 @@ impl<'m> RunEquations<'m> {
         off && (self.is_by_time() || is_near)
     }
 
-    /// From now on, `leader` integrates all coordinates. An implicit method chooses independent
-    /// coordinates instead.
+    /// From this step on, `leader` integrates all coordinates. An implicit method chooses
+    /// independent coordinates instead.
     pub(super) fn follow(&mut self, leader: Leader) {
         let KeptRowMotion {
             manifold,
@@ -415,7 +419,7 @@ impl<'m> RunEquations<'m> {
     /// Within the last accepted step, the completion of states on independent coordinates starts
     /// from the interpolated path of the step. The integrator's values of the dependent coordinates
     /// are estimates over a whole step.
-    fn lead_completion(&mut self, t: f64) {
+    pub(super) fn lead_completion(&mut self, t: f64) {
         if let Some(coordinates) = &mut self.motion.manifold.coordinates
             && let Some(led) = self.last.lead(t)
         {
@@ -440,7 +444,7 @@ impl<'m> RunEquations<'m> {
         self.motion.derivative(t, &self.scratch.stage, dy)
     }
 
-    fn is_break(&self, t: f64) -> bool {
+    pub(super) fn is_break(&self, t: f64) -> bool {
         let times = &self.motion.mechanism().layout().break_times;
         times.binary_search_by(|b| b.total_cmp(&t)).is_ok()
     }
@@ -660,6 +664,7 @@ impl Ode for RunEquations<'_> {
                     verdicts.impulses(&mut self.motion, (t, q), multipliers)?;
             }
             self.record.events.push(impulse.event);
+            self.check_impulse(t, &impulse.multipliers)?;
         }
         Ok(())
     }

@@ -13,7 +13,7 @@ use crate::limits::{NO_JUMP, REMAINS, WIDE};
 use crate::motion::KeptRowMotion;
 use crate::solve::Evaluation;
 
-/// Effect of a jump of the rates.
+/// Change of the motion at a jump of prescribed rates.
 pub(crate) struct Impulse {
     /// Work of the impulse (J).
     pub(crate) energy: f64,
@@ -78,8 +78,7 @@ pub(super) fn cross_break(
     let energy = mechanism.kinetic_energy(v) - kinetic;
     let label = &layout.labels[row];
     let text = format!(
-        "the rate of row {label} jumps by {jump:.6e}: an impulse changes the velocities at once, and the kinetic \
-         energy by {energy:.6e} J. Reactions are infinite for this instant and not written."
+        "the rate of row {label} jumps by {jump:.6e}: an impulse changes the velocities instantly, and the kinetic energy by {energy:.6e} J. Reactions are infinite for this instant and not written."
     );
     let event = Event::at(t, EventKind::Impulse, &equations.velocity.dropped, text);
     Ok(Some(Impulse {

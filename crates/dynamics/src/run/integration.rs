@@ -14,6 +14,7 @@ use integrators::{
 };
 
 use super::caller::{ShowRow, Watch, named};
+use super::contacts::{self, Opening};
 use super::equations::{Leader, RunEquations};
 use super::passages;
 use crate::error::{MotionError, MotionFault};
@@ -28,6 +29,8 @@ pub(super) struct Run<'r, 'm> {
     watch: &'r Watch<'r>,
     /// Reason why the run was stopped between two steps.
     pub(super) stopped: Option<MotionError>,
+    /// Time at which the run ended within its last step (s).
+    pub(super) ended: Option<f64>,
 }
 
 type IntegrationResult = Result<Outcome, Box<integrators::Failure<MotionFault>>>;
@@ -46,6 +49,7 @@ impl<'r, 'm> Run<'r, 'm> {
             row,
             watch,
             stopped: None,
+            ended: None,
         }
     }
 
@@ -57,7 +61,12 @@ impl<'r, 'm> Run<'r, 'm> {
         y0: &[f64],
         settings: &Options,
     ) -> IntegrationResult {
-        if self.show_start(y0).is_break() {
+        let opening = contacts::opening_at_start(&mut self.equations, (interval.t0, y0));
+        let has_ended = self.show_start(y0).is_break();
+        if let Ok(Some(fault)) | Err(fault) = opening {
+            self.stopped.get_or_insert(fault.into());
+        }
+        if has_ended || self.stopped.is_some() {
             return Ok(Outcome {
                 t: interval.t0,
                 y: y0.to_vec(),
@@ -133,6 +142,7 @@ impl<'r, 'm> Run<'r, 'm> {
             row,
             watch,
             stopped,
+            ended,
         } = self;
         let (mut refused, mut hands_over) = (None, false);
         let mut events = equations.events();
@@ -143,17 +153,38 @@ impl<'r, 'm> Run<'r, 'm> {
             );
             step.ode().take_step(times, ends);
             let known = events;
-            passages::note(step);
-            if let Err(fault) = judge_ahead(step, known) {
+            let opening = contacts::opening(step).unwrap_or_else(|fault| {
                 *stopped = Some(fault.into());
+                None
+            });
+            if stopped.is_some() {
                 return ControlFlow::Break(());
             }
+            if opening.is_none() {
+                passages::note(step);
+                if let Err(fault) = judge_ahead(step, known) {
+                    *stopped = Some(fault.into());
+                    return ControlFlow::Break(());
+                }
+            }
             events = step.ode().events();
-            let emitted = rows.emit(step, |e, t, y| show(e, (t, y), row, stopped));
+            let to = opening.as_ref().map_or(times[1], |opening| opening.t);
+            let mut shown = None;
+            let emitted = rows.emit_until(to, step, |e, t, y| {
+                shown = Some(t);
+                show(e, (t, y), row, stopped)
+            });
             emitted.unwrap_or_else(|error| {
                 refused = Some(error);
                 ControlFlow::Break(())
             })?;
+            if let Some(Opening { t, mut y, fault }) = opening {
+                if shown == Some(t) || show(step.ode(), (t, &mut y), row, stopped).is_continue() {
+                    *stopped = Some(fault.into());
+                    *ended = Some(t);
+                }
+                return ControlFlow::Break(());
+            }
             watch(times[1])?;
             hands_over = step.ode().hands_over(times);
             if hands_over {

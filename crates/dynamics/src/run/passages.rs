@@ -33,7 +33,9 @@ pub(super) fn note(step: &mut Step<'_, RunEquations<'_>>) {
             } else {
                 None
             };
-            let words = words.unwrap_or_else(|| "whether it is unique there is not decided".into());
+            let words = words.unwrap_or_else(|| {
+                "whether it is unique at this configuration is undecided".into()
+            });
             step.ode()
                 .record
                 .uniqueness

@@ -11,10 +11,10 @@
 //! | velocities | `C·dv = −∂(C·v − b)/∂q·dq`, dv given on u |
 //! | accelerations | `M·da + Cᵀ·dλ = ∂(Q − Cᵀ·λ)/∂q·dq + ∂Q/∂v·dv`, `C·da = −∂(C·a − Γ)/∂q·dq + ∂Γ/∂v·dv` |
 //!
-//! The system `(σ·I − D·S)·x = r` needs only a factorisation of the order of w,
-//! `(σ·I − S·D)·x_w = r_w`. The dependent entries of x are only estimates for completions, so they
-//! follow from x_w like the dependent entries of dq and dv. The exact solution, `σ·x = r + D·x_w`,
-//! is not used for these entries. It would include stiff forces in the dependent directions,
+//! The system `(σ·I − D·S)·x = r` needs only a factorisation of the order of w, `(σ·I − S·D)·x_w =
+//! r_w`. The dependent entries of x are only estimates for completions, so they follow from x_w
+//! like the dependent entries of dq and dv. The exact solution, `σ·x = r + D·x_w`, is not used for
+//! these entries. The exact solution would include stiff forces in the dependent directions,
 //! amplified by the lever arms of the mechanism. Then the method would fail to converge although w
 //! has converged. Along the normals of the coordinates, along which no pose changes, f does not
 //! depend on y; the exact solution `σ·x = r` is used along these normals.
@@ -217,8 +217,8 @@ impl ReducedJacobian {
         Ok(())
     }
 
-    /// Linearises and factors again if the partition changed at the start of the step. Then f is
-    /// another function of y, although the motion is the same.
+    /// Linearises and factors again if the partition changed at the start of the step. After such a
+    /// change f is another function of y, although the motion is the same.
     ///
     /// # Errors
     /// Returns the same errors as [`ReducedJacobian::linearise`] and [`ReducedJacobian::factor`].
@@ -479,7 +479,7 @@ pub(crate) fn derivatives(mechanism: &Mechanism) -> Result<Derivatives, MotionFa
     Derivatives::of(mechanism).map_err(|source| MotionFault::NoDerivatives {
         needs: "method radau5 needs",
         source,
-        instead: "take an explicit method: dop853, dopri5 or tsit5, or auto, which takes one",
+        instead: "use an explicit method: dop853, dopri5, tsit5 or auto",
     })
 }
 

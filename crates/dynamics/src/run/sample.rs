@@ -57,9 +57,9 @@ pub(super) struct OfMotion<'s, 'm> {
     pub(super) known: SolveProgress,
     /// The solver for the requested choices.
     pub(super) choices: Option<&'s CarriedChoices<'m>>,
-    /// Multipliers, once they were requested.
+    /// Multipliers, if a caller has requested them.
     pub(super) lambda: Option<Vec<f64>>,
-    /// Multipliers and reactions for each choice, once they were requested.
+    /// Multipliers and reactions for each choice, if a caller has requested them.
     pub(super) chosen: Option<Vec<OfChoice>>,
 }
 

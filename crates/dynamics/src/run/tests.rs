@@ -127,7 +127,7 @@ fn what_needs_derivatives_refuses_a_called_law_by_name() {
     assert_eq!(
         error.to_string(),
         "method radau5 needs derivatives of all forces, and drive `motor of mass` calls a function, which has no \
-         derivatives; take an explicit method: dop853, dopri5 or tsit5, or auto, which takes one"
+         derivatives; use an explicit method: dop853, dopri5, tsit5 or auto"
     );
     let state = (0.0, prepared.q.as_slice(), prepared.v.as_slice());
     let error = linearise(&prepared, state, &LineariseOptions::default()).expect_err("derivatives");

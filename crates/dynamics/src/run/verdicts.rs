@@ -1,5 +1,5 @@
 //! The verdicts of a run: at accepted steps and output rows they are computed from the rows that
-//! are factored there.
+//! are factored at these states.
 //!
 //! A parameter sweep needs only the verdicts of the whole run. For it, they are computed only at
 //! the ends of each time interval between two events.
@@ -81,7 +81,7 @@ impl<'m> RunVerdicts<'m> {
     }
 
     /// Computes the verdicts at a state: its time, the time at which functions are evaluated, and
-    /// its coordinates. `is_factored` states whether the rows are factored there.
+    /// its coordinates. `is_factored` states whether the rows are factored at this state.
     pub(super) fn look(
         &mut self,
         motion: &mut KeptRowMotion<'_>,

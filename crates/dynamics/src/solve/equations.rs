@@ -48,7 +48,7 @@ impl<'m> KeptEquations<'m> {
         &rows.dropped
     }
 
-    /// Evaluates a configuration and factors the rows of C there.
+    /// Evaluates a configuration and factors the rows of C at it.
     pub(crate) fn factor_at(&mut self, t: f64, q: &[f64]) -> Result<(), MotionFault> {
         self.at.pose(t, q);
         self.velocity.factor(&self.at)
@@ -64,8 +64,8 @@ impl<'m> KeptEquations<'m> {
     }
 
     /// Multipliers of all rows for accelerations a from the last solution; zero for redundant rows.
-    /// They are NaN if independent rows are dependent at exactly this instant, because then the
-    /// multipliers are not defined.
+    /// The multipliers are NaN if independent rows are dependent at exactly this instant, because
+    /// then the multipliers are not defined.
     pub(crate) fn multipliers_for(
         &mut self,
         a: &[f64],

@@ -33,14 +33,14 @@ impl<'m> Evaluation<'m> {
         self.mechanism.c(&mut self.s);
     }
 
-    /// Evaluates b at the present configuration.
+    /// Evaluates b at the current configuration.
     pub(crate) fn b(&mut self) {
         if self.mechanism.layout().rheonomic {
             self.mechanism.b(&mut self.s);
         }
     }
 
-    /// Evaluates Γ and Q at the present configuration.
+    /// Evaluates Γ and Q at the current configuration.
     pub(crate) fn gamma_and_force(&mut self, v: &[f64]) {
         self.mechanism.twist(v, &mut self.s);
         self.mechanism.gamma(&mut self.s);

@@ -4,8 +4,8 @@
 //!
 //! Let `z` be 1 at a redundant row, and minus the coefficients at the independent rows that imply
 //! it. Then the bound is `3·Σ τ_j·|zᵀ·∂Φ/∂d_j|` over all data d_j with their tolerances τ_j; for
-//! velocities `3·Σ τ_j·|zᵀ·∂(C·v)/∂d_j|`. The factor 3 is [`model::SHARED`]. It accounts for rows
-//! that share a violation, and for the pose, which changes with the data.
+//! velocities `3·Σ τ_j·|zᵀ·∂(C·v)/∂d_j|`. The factor 3 is [`model::SHARED`]. This factor accounts
+//! for rows that share a violation, and for the pose, which changes with the data.
 
 use model::words::quantity;
 use model::{Bodies, DataBlock, Level, RowLabel, System};

@@ -1,6 +1,6 @@
 //! Independent rows of C with all data for their solution.
 //!
-//! They are factored in units of the mechanism ([`super::units`]). Otherwise the pivot of a
+//! The rows are factored in units of the mechanism ([`super::units`]). Otherwise the pivot of a
 //! rotation, which is a length, would be compared with the pivot of a translation, which has no
 //! dimension. Pivots would become small and determinants would change sign only because of the unit
 //! of length. Callers use only SI units.
@@ -21,7 +21,7 @@ use crate::limits::{PIVOT_SINGULAR, SUMMED_FROM};
 pub(crate) struct KeptRows {
     /// Rows of C, ascending.
     pub(crate) kept: Vec<usize>,
-    /// The other rows of the same level.
+    /// All rows of the same level except the factored ones.
     pub(crate) dropped: Vec<usize>,
     /// Right-hand side, one value for each independent row.
     pub(crate) rhs: Vec<f64>,
@@ -440,7 +440,7 @@ impl KeptRows {
         self.solve_for_multipliers()
     }
 
-    /// Uses the reference pivot of other rows, because the present configuration may be singular.
+    /// Uses the reference pivot of other rows, because the current configuration may be singular.
     pub(crate) fn compare_as(&mut self, others: &Self) {
         self.reference_pivot = others.reference_pivot;
     }

@@ -69,11 +69,11 @@ macro_rules! either {
 }
 
 /// Whether the independent rows of C and of Φq are solved through the Schur complement, for this
-/// number of independent rows of C and this size of the mechanism (m). There are two such cases. In
-/// the first case, there are many rows and many free motions, every coordinate has a mass, and
-/// solutions need no refinement because of different masses. In the second case, rows and free
-/// motions are too many for the null space. Many free motions without rows leave no equation to
-/// eliminate.
+/// number of independent rows of C and this size of the mechanism (m). Two cases require a
+/// refinement. In the first case, there are many rows and many free motions, every coordinate has a
+/// mass, and solutions need no refinement because of different masses. In the second case, rows and
+/// free motions are too many for the null space. Many free motions without rows leave no equation
+/// to eliminate.
 pub(crate) fn is_schur(mechanism: &Mechanism, size: f64, rows: usize) -> bool {
     let free = mechanism.layout().n_v.saturating_sub(rows);
     let is_free = || rows == 0 && free > FREE_DENSE && mechanism.mass().iter().all(|&m| m > 0.0);

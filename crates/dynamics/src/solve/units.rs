@@ -72,7 +72,7 @@ fn units_of_bodies(mechanism: &Mechanism, size: f64) -> Vec<f64> {
 
 /// The length (m) of each body. It is the longest arm from the centre of mass to a point of a
 /// joint, or the largest radius of gyration if that is longer. The length is the size of the
-/// mechanism (m) if both are zero or rounding errors.
+/// mechanism (m) if both lengths are zero or rounding errors.
 fn lengths(mechanism: &Mechanism, size: f64) -> Vec<f64> {
     let space = mechanism.space();
     let gyration = |mass: &[f64]| {

@@ -76,7 +76,7 @@ pub(crate) struct CodeSwitch<'m> {
 pub(crate) struct Departure {
     /// The event that reports the switch.
     pub(crate) event: Event,
-    /// Whether stages of the present step were evaluated by generated code, so that the step must
+    /// Whether stages of the current step were evaluated by generated code, so that the step must
     /// start again.
     pub(crate) is_within_step: bool,
 }
@@ -246,7 +246,7 @@ impl<'m> CodeSwitch<'m> {
             _ => self.accepted[0].t,
         };
         let text = format!(
-            "the generated code `{}` is left, because at t = {t} s {doubt}; from here on the equations are interpreted. The motion is the same.",
+            "the generated code `{}` is not used from t = {t} s on, because {doubt}; the equations are then interpreted. The motion is the same.",
             self.code.0.spec().name
         );
         let dropped = &equations.velocity.dropped;

@@ -22,7 +22,7 @@ pub(crate) struct Exchange {
 enum Velocity {
     /// The rows requested by the user, which are well-conditioned again.
     Requested,
-    /// Rows other than the present ones; the flag states whether the user requested the present
+    /// Rows other than the current ones; the flag states whether the user requested the current
     /// rows.
     Others(Box<KeptRows>, bool),
 }
@@ -120,7 +120,7 @@ impl Exchange {
             .map(|&i| labels[i].number.to_string())
             .collect();
         let consequence = if equations.have_missed() {
-            "They are redundant within the stated tolerance: the mechanism moves by what they missed."
+            "These rows are redundant within the stated tolerance: the mechanism moves by their former constraint violation."
         } else {
             "The motion is the same."
         };
@@ -141,9 +141,9 @@ pub(super) fn may_be_due(equations: &mut KeptEquations<'_>, choice: &RowChoice) 
         || want_exchange(equations, choice)
 }
 
-/// Rows with smaller coefficients in the redundant rows than the present independent rows have, at
+/// Rows with smaller coefficients in the redundant rows than the current independent rows have, at
 /// a settled output row. Between two steps, the mechanism may reach configurations for which the
-/// present rows are not suitable.
+/// current rows are not suitable.
 pub(super) fn better_for_row(
     equations: &mut KeptEquations<'_>,
     choice: &RowChoice,
@@ -168,7 +168,7 @@ pub(super) fn better_position_for_row(
     better(at, decide_holonomic_rows(at.mechanism, &at.s, q), old)
 }
 
-/// Whether an output row uses the present rows without a search for other ones.
+/// Whether an output row uses the current independent rows without a search for others.
 fn suit_output(equations: &KeptEquations<'_>) -> bool {
     !GUARDED || equations.have_missed() || are_sound(&equations.velocity)
 }

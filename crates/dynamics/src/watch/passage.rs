@@ -1,6 +1,6 @@
-//! Detects whether a step moves through a singular configuration. There the independent rows are
-//! dependent for an instant, and branches of the motion may meet. A step may then end on another
-//! branch although every residual is a rounding error.
+//! Detects whether a step moves through a singular configuration. At a singular configuration the
+//! independent rows are dependent for an instant, and branches of the motion may meet. A step may
+//! then end on another branch although every residual is a rounding error.
 //!
 //! The accelerations there are quotients whose numerator and denominator both vanish. At the
 //! distance σ, a relative pivot, a constraint violation δ of a stage causes an error δ/σ, and

@@ -15,7 +15,8 @@ use crate::solve::{Evaluation, KeptEquations, KeptRows};
 pub(crate) struct Singular {
     /// Time (s).
     pub(crate) t: f64,
-    /// Number of independent rows that are dependent there; in a reported event, the loss of rank.
+    /// Number of independent rows that are dependent at the singular configuration; in a reported
+    /// event, the loss of rank.
     pub(crate) dependent: usize,
 }
 
@@ -54,7 +55,7 @@ pub(crate) struct SingularitySearch<'m> {
 }
 
 impl<'m> SingularitySearch<'m> {
-    /// Uses the present rows, with separate storage.
+    /// Uses the current rows, with separate storage for intermediate results.
     pub(crate) fn new(equations: &KeptEquations<'m>) -> Self {
         Self {
             at: equations.at.clone(),
@@ -182,7 +183,7 @@ impl<'m> SingularitySearch<'m> {
     }
 
     /// The event that reports the configuration; `uniqueness` states whether the motion is unique
-    /// there.
+    /// at this configuration.
     pub(crate) fn event(&self, singular: Singular, uniqueness: &str) -> Event {
         let redundancy = self.rows.dropped.len();
         let Singular { t, dependent } = singular;

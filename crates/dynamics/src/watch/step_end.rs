@@ -84,8 +84,8 @@ impl Monitors {
         }
     }
 
-    /// Relative pivot below which this run treats a pivot as zero. Steps must not end closer to a
-    /// singular configuration, unless they must end at this time.
+    /// Relative pivot below which this run treats a pivot as zero. Steps must not end closer than
+    /// this to a singular configuration, unless a break time requires it.
     pub(crate) fn nearest(&self) -> f64 {
         (NEAREST_TOLERANCES * self.rtol).clamp(NEAREST, NEAREST_MAX)
     }

@@ -1,7 +1,8 @@
 //! LU decomposition with partial pivoting of a dense real or complex matrix: P·A = L·U, row by row
 //! in one array.
 //!
-//! It is intended for the small systems of plain problems, and has no blocking or scaling.
+//! This factorisation is intended for the small systems of plain problems, and has no blocking or
+//! scaling.
 
 use super::complex::Complex;
 use std::ops::{Add, Div, Mul, Sub};

@@ -58,8 +58,8 @@ impl<O: Ode, F: FnMut(f64, &[f64], &mut [f64])> Jacobian<O> for F {
     }
 }
 
-/// Forward differences with increments `√(eps·max(10⁻⁵, |y_k|))`, as in the program RADAU5. They
-/// need n + 1 evaluations of f.
+/// Forward differences with increments `√(eps·max(10⁻⁵, |y_k|))`, as in the program RADAU5. These
+/// differences need n + 1 evaluations of f.
 #[derive(Debug, Clone, Default)]
 pub struct Differences {
     y: Vec<f64>,

@@ -20,9 +20,10 @@
 //!
 //! **Order 8.** A combination of stages is called clean if Σ w_i k_i = Σ w_i y'(t0 + c_i h) +
 //! O(h⁸). A polynomial of degree 8 through y0 needs eight independent clean combinations. Thirteen
-//! stages have only three: k_1, k_13 and the step Σ b_i k_i. Bootstrapping (see `rk5::dense`) from
-//! Hairer, Nørsett and Wanner's output of order 7 would take eight evaluations: the three extra
-//! stages of this output, which are not clean, and five clean stages. Six evaluations are enough:
+//! stages have only three clean combinations: k_1, k_13 and the step Σ b_i k_i. Bootstrapping (see
+//! `rk5::dense`) from Hairer, Nørsett and Wanner's output of order 7 would take eight evaluations:
+//! the three extra stages of this output, which are not clean, and five clean stages. Six
+//! evaluations are enough:
 //!
 //! - Stages 14, 15, 16 have order 6: their arguments are y(t0 + c_i h) + h⁷·δ_i + O(h⁸). Apart from
 //!   combinations of earlier stages, all these δ lie in a space of four dimensions. The conditions
@@ -36,12 +37,12 @@
 //!   degree 8, and its table has five rows.
 //!
 //! Five evaluations would need a clean stage 14, and thirteen stages are not sufficient for it. The
-//! free parameters are c_14, c_16 to c_19 and one weight of stage 14. They were optimised with two
-//! goals. The error coefficients of order 9 within the step do not exceed the error coefficients at
-//! its end, which are those of the method. The weights are small: Σ|b_i(θ)| exceeds its value at
-//! the end, 12.91, by less than 0.1 %, and Σ|a_ij| < 8 in the extra stages (the method itself has
-//! values up to 95). All this is asserted in `order_conditions`. The tables were computed with 40
-//! digits from the rounded table of the method.
+//! free parameters are c_14, c_16 to c_19 and one weight of stage 14. The free parameters were
+//! optimised with two goals. Within the step, the error coefficients of order 9 do not exceed the
+//! error coefficients of the method at the end of the step. The weights are small: Σ|b_i(θ)|
+//! exceeds its value at the end, 12.91, by less than 0.1 %, and Σ|a_ij| < 8 in the extra stages
+//! (the method itself has values up to 95). All this is asserted in `order_conditions`. The tables
+//! were computed with 40 digits from the rounded table of the method.
 
 use super::Dop853Stages;
 use super::tableau::{A, C, D, FREE, STAGES, STEP_STAGES};

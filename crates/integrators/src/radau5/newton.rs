@@ -69,7 +69,7 @@ impl Radau5Stages {
         }
     }
 
-    /// Writes Δw at the present z, w to `k`.
+    /// Writes Δw at the current z, w to `k`.
     fn increment<O: Implicit>(
         &mut self,
         ode: &mut O,
@@ -107,7 +107,7 @@ impl Radau5Stages {
             .map_err(|component| Cause::NonFinite { component })
     }
 
-    /// Returns the weighted norm of the last increments, with the present end of the step in the
+    /// Returns the weighted norm of the last increments, with the current end of the step in the
     /// weights, and the largest permitted norm at the end.
     fn increment_norm(&mut self, start: &Start<'_>) -> (f64, f64) {
         for ((y, y0), z) in self.y.iter_mut().zip(start.y0).zip(&self.z[2]) {

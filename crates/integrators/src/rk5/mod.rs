@@ -1,5 +1,5 @@
-//! Pairs of order 5(4) with seven stages, the last of which is the first of the next step. There is
-//! one implementation with two tables.
+//! Pairs of order 5(4) with seven stages, the last of which is the first of the next step. Both
+//! pairs share one implementation with two tables of coefficients.
 
 mod dense;
 mod dopri5;

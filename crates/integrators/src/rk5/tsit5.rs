@@ -1,8 +1,9 @@
 //! Tsitouras 5(4): the coefficients, from the equations of the paper in 40 digits, rounded once.
 //! The module `order_conditions` checks them.
 //!
-//! The paper prints the weights of the dense output with 16 to 18 digits. In this crate they differ
-//! by at most 1e-14: they are the nearest weights that satisfy the conditions of order 4 exactly.
+//! The paper prints the weights of the dense output with 16 to 18 digits. The weights of this crate
+//! differ from the published ones by at most 1e-14: they are the nearest weights that satisfy the
+//! conditions of order 4 exactly.
 //!
 //! Source: Ch. Tsitouras, Runge–Kutta pairs of order 5(4) satisfying only the first column
 //! simplifying assumption, Comput. Math. Appl. 62 (2011) 770–775, DOI 10.1016/j.camwa.2011.06.002.
