@@ -1,4 +1,4 @@
-"""Builds the wheel of the package and installs it into an environment of its own.
+"""Builds the wheel of the package and installs it into a separate environment.
 
 `python python/build.py` from the root, or from anywhere: the environment is `python/target/venv`,
 the wheel goes to `python/target/wheels`. `--quick` compiles faster, for tests: with little
@@ -26,7 +26,7 @@ WHEELS = TARGET / "wheels"
 STUBS = HERE / "package" / "pfaff" / "_pfaff.pyi"
 HEADING = "# Written by `python python/build.py --write-stubs` from the compiled module.\n\n"
 PORTABLE = ("--zig", "--compatibility", "manylinux_2_28")
-"""Zig links against the symbols of an older glibc; maturin refuses a wheel with later ones."""
+"""Zig links against the symbols of an older glibc; maturin rejects a wheel with later symbols."""
 LICENCES = ("LICENSE-APACHE", "LICENSE-MIT", "THIRD-PARTY.md")
 
 
@@ -46,7 +46,7 @@ def run(*command: str | Path) -> None:
 
 
 def environment(python: str) -> None:
-    """Makes the environment, if it is not there, and installs what is pinned."""
+    """Creates the environment if it does not exist, and installs the pinned packages."""
     if not interpreter().exists():
         run(python, "-m", "venv", VENV)
     pip = (interpreter(), "-m", "pip", "--disable-pip-version-check", "install", "--quiet")
@@ -82,8 +82,8 @@ def wheel(profile: str, extra: Sequence[str]) -> Path:
 def stubs(profile: str, write: bool) -> None:
     """Compares the stubs of the private module with the compiled one, or writes them.
 
-    In a release they would be compiled again: they are read from symbols that its wheel is stripped
-    of. `test.py` compares stubs and module there, too.
+    For a release the crate would be compiled again, because the stubs are read from symbols that
+    the wheel of a release does not contain. `test.py` compares stubs and module there, too.
     """
     folder = TARGET / "stubs"
     shutil.rmtree(folder, ignore_errors=True)

@@ -1,4 +1,4 @@
-"""Runs notebooks and compares what they show with what is stored in them, or stores it.
+"""Runs notebooks and compares their outputs with the stored outputs, or stores the new outputs.
 
 `python python/notebooks.py [NOTEBOOK …]` with the interpreter of the environment, for all of
 `python/notebooks` if none is named; `--write` stores the outputs. Cells are run as Jupyter runs
@@ -111,7 +111,7 @@ class Cell:
 
 
 def run(notebook: dict[str, Any], path: Path) -> None:
-    """Runs all cells and puts their outputs in the place of those that are stored."""
+    """Runs all cells and replaces the stored outputs."""
     names: dict[str, Any] = {"__name__": "__main__"}
     count = 0
     for cell in notebook["cells"]:

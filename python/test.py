@@ -14,7 +14,7 @@ from build import HERE, interpreter, run
 
 
 def checked(*command: str) -> subprocess.CompletedProcess[str]:
-    """What a module of the environment says of the package."""
+    """Statements of a module of the environment about the package."""
     words = [str(interpreter()), "-m", *command]
     return subprocess.run(words, cwd=HERE, check=False, capture_output=True, text=True)
 

@@ -1,4 +1,4 @@
-//! Passes to the library where the scenes are that come with it.
+//! Passes the folder of the included scenes to the library.
 
 use std::path::Path;
 

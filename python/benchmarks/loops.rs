@@ -1,5 +1,5 @@
 //! A loop of `measure.py` in Rust: `cargo run --release --example loops -- SCENE text 1000` in
-//! `python`. Analyses the scene so many times, from its `text` or once it was `read`.
+//! `python`. Analyses the scene this many times, from its `text` or after it was `read` once.
 
 use pfaff::model::Registry;
 use pfaff::{RunOptions as Overrides, Study, StudyError};

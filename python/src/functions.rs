@@ -25,8 +25,8 @@ impl Functions {
         self.drives.is_empty() && self.forces.is_empty()
     }
 
-    /// Adds the functions to a description. They are called until one has raised an exception,
-    /// which `hearing` stores.
+    /// Adds the functions to a description. The functions are called until one has raised an
+    /// exception, which `hearing` stores.
     pub(crate) fn put_into(
         self,
         description: &mut AnyDescription,

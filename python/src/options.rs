@@ -164,7 +164,7 @@ pub(crate) fn rows_from_zero(rows: Option<&[usize]>) -> Result<Option<Vec<usize>
     match from_zero {
         Some(rows) => Ok(Some(rows)),
         None => Err(wrong(
-            "rows are counted from 1; there is no row 0".to_owned(),
+            "row 0 does not exist: rows are counted from 1".to_owned(),
         )),
     }
 }

@@ -70,8 +70,8 @@ impl Source {
         Ok(budget.assembled((&self.name, &self.text), &REGISTRY, tolerance)?)
     }
 
-    /// Returns the start with this tolerance of the data, within this memory limit. Results for it
-    /// that are already stored remain available.
+    /// Returns the start with this tolerance of the data, within this memory limit. Stored results
+    /// for the configuration remain available.
     fn start(&self, tolerance: Tolerance, budget: Budget) -> Arc<Start<'static>> {
         let mut last = self.start.lock().unwrap_or_else(PoisonError::into_inner);
         if let Some(start) = last.as_ref()
@@ -525,7 +525,7 @@ impl Scene {
                 ))
             })?;
             if let (Some(_), Form::Page | Form::Svg) = (scale, form) {
-                return Err(wrong("scale is for a name that ends with .png".to_owned()));
+                return Err(wrong("--scale requires a file name that ends with .png".to_owned()));
             }
             let start = own.start(common.tolerance(), common.budget()?);
             let drawing = Drawing::new(&start, form, scale, &Control::quiet())?;

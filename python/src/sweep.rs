@@ -9,7 +9,7 @@ use std::time::{Duration, Instant};
 use numpy::IntoPyArray;
 use pfaff::refusal::{Refusal, json};
 use pfaff::report::sweep::{Cell, Extent, Kind, Records, Shards};
-use pfaff::report::{SweepDocument, SweepStatus};
+use pfaff::report::SweepDocument;
 use pfaff::sweep::{Axis, Shard, SweepError, SweepProgress, SweepSettings, Tables};
 use pyo3::prelude::*;
 use pyo3::types::PyList;
@@ -148,7 +148,7 @@ impl Sweep {
                     SweepProgress::Finished(row) => {
                         made += 1;
                         count += 1;
-                        failed += u64::from(row.status != SweepStatus::Done);
+                        failed += u64::from(row.status.is_failure());
                     }
                 }
                 if let Some(on_runs) = &on_runs

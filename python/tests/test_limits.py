@@ -90,7 +90,7 @@ def test_a_limit_of_memory(call: Callable[[pfaff.Scene, Any], object]) -> None:
 
 
 def test_a_limit_of_memory_is_that_of_the_command(command: Command, tmp_path: Path) -> None:
-    """The same holds if the scene has already been assembled."""
+    """This is also true if the scene has already been assembled."""
     path = tmp_path / "chain.toml"
     path.write_text(chain(300), encoding="utf-8")
     scene = pfaff.Scene.from_file(path)

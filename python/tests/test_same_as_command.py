@@ -212,7 +212,7 @@ def test_other_refusals(command: Command, scene_file: Callable[[str], Path]) -> 
     analysis = scene.analyze()
     same(lambda: analysis.verdicts["pivo"], "analyze", path, "--make-unique", "pivo")
     same(lambda: analysis.combine("pivot.Q"), "analyze", path, "--combine", "pivot.Q")
-    with pytest.raises(pfaff.InputError, match="rows are counted from 1; there is no row 0"):
+    with pytest.raises(pfaff.InputError, match="row 0 does not exist: rows are counted from 1"):
         scene.analyze(drop=[0])
     same(lambda: scene.analyze(drop=[7]), "analyze", path, "--drop", "7")
     out = path.with_name("out")

@@ -86,7 +86,7 @@ def test_couplings_have_their_own_force() -> None:
 
 @pytest.mark.parametrize("path", EXAMPLES, ids=lambda path: path.stem)
 def test_directions_are_rows(path: Path) -> None:
-    """There are as many columns as components (six in space), even if there is no row."""
+    """Arrays have as many columns as components (six in space), even without a row."""
     analysis = pfaff.Scene.from_file(path).analyze()
     is_spatial = analysis.document["velocities"] == 6 * analysis.document["bodies"]
     for verdict in analysis.verdicts.values():

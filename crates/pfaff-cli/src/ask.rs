@@ -111,7 +111,8 @@ impl FromArgMatches for AskCommand {
             let facts = Questions::FACTS.iter().find(|facts| facts.name == name)?;
             Some((facts, own))
         });
-        let (facts, own) = asked.expect("clap has found a question by its name");
+        let (facts, own) =
+            asked.expect("the parser of the command line accepts only names of questions");
         let scenes = own.get_many(SCENES).unwrap_or_default();
         let place = facts.output.map(|_| OutputOptions::from_arg_matches(own));
         Ok(Self {
@@ -144,7 +145,7 @@ impl AskCommand {
         let is_stdin = |path: &&PathBuf| path.as_os_str() == OsStr::new("-");
         if self.scenes.iter().filter(is_stdin).count() > 1 {
             return Err(Failure::input(
-                "standard input is one scene; give the other one as a file".to_owned(),
+                "standard input contains one scene; give the second scene as a file".to_owned(),
             ));
         }
         self.of.resources.apply(console);

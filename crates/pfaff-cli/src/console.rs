@@ -190,7 +190,7 @@ fn rendered(message: &clap::Error, stream: &Stream<'_>) -> String {
 /// Returns an error in the command line without its paragraphs about usage.
 fn in_one_line(message: &clap::Error) -> String {
     if message.kind() == NO_COMMAND {
-        return "there is no command; `--help` lists all".to_owned();
+        return "the command line contains no command; `--help` lists all".to_owned();
     }
     let text = message.render().to_string();
     let text = text.strip_prefix("error: ").unwrap_or(&text);

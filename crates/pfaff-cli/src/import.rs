@@ -129,15 +129,17 @@ fn words(imported: &ImportedScene, file: &str, error: Option<&str>) -> String {
         out += &wrapped("note: ", remark);
     }
     for (kind, list) in imported.left_out() {
-        out += &wrapped("left out: ", &format!("{kind}: {}", list.join(", ")));
+        out += &wrapped("omitted: ", &format!("{kind}: {}", list.join(", ")));
     }
     if imported.omissions.is_empty() {
-        out += "nothing of the file is left out\n";
+        out += "the whole file was converted\n";
     }
     out += &match error {
         Some(error) => wrapped(
             "error: ",
-            &format!("{file} is written, and it is refused until this is mended: {error}"),
+            &format!(
+                "{file} is written, but it is rejected until this error is corrected: {error}"
+            ),
         ),
         None => format!("next: pfaff analyze {file}\n"),
     };

@@ -200,7 +200,10 @@ pub(crate) fn beside(directory: &OutputDirectory, family: Family) -> String {
     let named: Vec<String> = named.collect();
     wrapped(
         "",
-        &format!("also there, from other commands: {}", named.join(", ")),
+        &format!(
+            "the directory also contains files of other commands: {}",
+            named.join(", ")
+        ),
     )
 }
 

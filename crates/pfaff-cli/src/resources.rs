@@ -31,7 +31,9 @@ pub(crate) struct Memory {
 pub(crate) fn start_threads(threads: Option<NonZeroUsize>, console: &Console<'_>) {
     static TOLD: AtomicBool = AtomicBool::new(false);
     if !pfaff::start_threads(threads) && !TOLD.swap(true, Ordering::Relaxed) {
-        console.note("the system does not start so many threads: one thread computes everything");
+        console.note(
+            "the system could not start the requested threads: one thread computes everything",
+        );
     }
 }
 

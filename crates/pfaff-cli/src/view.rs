@@ -164,5 +164,8 @@ fn missing(boxes: &str) -> String {
         c => format!("U+{:04X}", u32::from(c)),
     });
     let named: Vec<String> = named.collect();
-    format!("boxes, as no font here has them: {}\n", named.join(", "))
+    format!(
+        "printed as boxes, because no installed font has these characters: {}\n",
+        named.join(", ")
+    )
 }

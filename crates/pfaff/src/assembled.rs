@@ -212,36 +212,53 @@ impl AssembledScene {
         drop: Option<&[usize]>,
         progress: impl Fn(usize) + Sync,
     ) -> Result<ConfigurationAnalysis<'_>, StudyError> {
+        let asked = drop.map_or(AskedRows::Any, AskedRows::Dropped);
+        let mut configuration = self.analyse_position(asked, progress)?;
+        let start = &configuration.scene.start;
+        let decision = &configuration.analysis.decision;
+        if decision.is_decided() {
+            let (q, kept) = (&configuration.state.q, &decision.kept);
+            let mechanism = configuration.mechanism;
+            let rows = solvability::rows(mechanism, 0.0, q)?;
+            configuration.state.v = match start_velocity(mechanism, start, &rows, q, kept) {
+                Ok((found, _)) => found.v,
+                Err(MotionError::Start(StartError::NoVelocity { .. }))
+                    if unmovable(mechanism, &rows, q).is_some() =>
+                {
+                    Vec::new()
+                }
+                Err(e) => return Err(refused(configuration.scene, e)),
+            };
+        }
+        Ok(configuration)
+    }
+
+    /// Works like [`Self::analyse`], but does not compute velocities, which no verdict needs.
+    pub(crate) fn analyse_configuration(
+        &mut self,
+    ) -> Result<ConfigurationAnalysis<'_>, StudyError> {
+        self.analyse_position(AskedRows::Any, |_| ())
+    }
+
+    fn analyse_position(
+        &mut self,
+        rows: AskedRows<'_>,
+        progress: impl Fn(usize) + Sync,
+    ) -> Result<ConfigurationAnalysis<'_>, StudyError> {
         let assembly = self.assemble()?;
-        let start = &self.scene.start;
         let state = State {
             q: assembly.q,
             v: Vec::new(),
         };
-        let mut configuration = ConfigurationAnalysis::new(
+        ConfigurationAnalysis::new(
             &self.scene,
             &self.mechanism,
             0.0,
             state,
             ConfigurationAccuracy::AsStored,
-            drop.map_or(AskedRows::Any, AskedRows::Dropped),
+            rows,
             progress,
-        )?;
-        let decision = &configuration.analysis.decision;
-        if decision.is_decided() {
-            let (q, kept) = (&configuration.state.q, &decision.kept);
-            let rows = solvability::rows(&self.mechanism, 0.0, q)?;
-            configuration.state.v = match start_velocity(&self.mechanism, start, &rows, q, kept) {
-                Ok((found, _)) => found.v,
-                Err(MotionError::Start(StartError::NoVelocity { .. }))
-                    if unmovable(&self.mechanism, &rows, q).is_some() =>
-                {
-                    Vec::new()
-                }
-                Err(e) => return Err(refused(&self.scene, e)),
-            };
-        }
-        Ok(configuration)
+        )
     }
 }
 

@@ -346,6 +346,19 @@ impl FoundBounds {
         columns.iter().enumerate().filter_map(band).collect()
     }
 
+    /// Returns the largest magnitudes of the reactions that are not unique on the whole run.
+    pub(crate) fn open(
+        &self,
+        verdicts: &Stretches,
+    ) -> impl Iterator<Item = &(ConstraintId, [Option<ExtremeDocument>; 2])> {
+        let is_open = |id: ConstraintId| {
+            let found = verdicts.reactions.get(id.0);
+            found.is_some_and(|found| !found.whole.of_run().is_unique())
+        };
+        let all = self.magnitudes.iter();
+        all.filter(move |(id, _)| is_open(*id))
+    }
+
     fn note(&mut self, time: f64, bounds: &RowBounds, reactions: &[ConstraintId]) {
         if let Some(reason) = &bounds.reason {
             let first = || Gap::at(time, reason.clone());
@@ -376,6 +389,7 @@ pub(crate) fn add_to(
     mechanism: &Mechanism,
     elasticity: &Elasticity,
     found: Option<(&[ReactionColumn], &FoundBounds)>,
+    verdicts: Option<&Stretches>,
 ) {
     let layout = mechanism.layout();
     let reactions = document.reactions.0.iter().zip(&layout.groups);
@@ -389,16 +403,17 @@ pub(crate) fn add_to(
         within: within.map(|range| range.factor),
         gap: found.and_then(|(_, found)| found.gap.clone()),
     });
-    let Some((columns, found)) = found else {
+    let Some(((columns, found), verdicts)) = found.zip(verdicts) else {
         return;
     };
-    for (column, range) in columns.iter().zip(&found.columns) {
+    let columns = columns.iter().zip(&found.columns);
+    for (column, range) in columns.filter(|(column, _)| column.quantity.open(verdicts).is_some()) {
         match column.quantity {
             Quantity::Component(id, name) => {
                 let own = document.reactions.0.get_mut(id.0);
                 let mut own = own.into_iter().flat_map(|(_, r)| &mut r.components.0);
                 let number = own.find(|(known, _)| known == name);
-                if let Some((_, number)) = number.filter(|(_, n)| n.of_run.verdict != "unique") {
+                if let Some((_, number)) = number {
                     number.bounds = *range;
                 }
             }
@@ -411,20 +426,13 @@ pub(crate) fn add_to(
                     .0
                     .iter_mut()
                     .find(|(known, _)| known == name);
-                let (of_run, bounds) = match number {
-                    Some((_, number)) => (&number.of_run, &mut number.bounds),
-                    None => (&group.of_run, &mut group.bounds),
-                };
-                if of_run.verdict != "unique" {
-                    *bounds = *range;
-                }
+                let own = number.map_or(&mut group.bounds, |(_, number)| &mut number.bounds);
+                *own = *range;
             }
         }
     }
-    for (id, [force, moment]) in &found.magnitudes {
-        if let Some((_, reaction)) = document.reactions.0.get_mut(id.0)
-            && reaction.verdict() != "unique"
-        {
+    for (id, [force, moment]) in found.open(verdicts) {
+        if let Some((_, reaction)) = document.reactions.0.get_mut(id.0) {
             let magnitude = MagnitudeOfRunDocument::new(*force, *moment);
             reaction.magnitude_at_most = Some(magnitude);
         }

@@ -88,7 +88,7 @@ pub(crate) fn compare(
     let words = match left_out.as_slice() {
         [] => Vec::new(),
         sets => vec![format!(
-            "{} of {} sets of joints that share loads are not compared, because a set is too large, there are too many sets, or not all of their reactions were requested. The first of these sets contains {}. Components that are not unique have no curve there.",
+            "{} of {} sets of joints that share loads are not compared, because a set is too large, there are too many sets, or not all of their reactions were requested. The first set that was not compared contains {}. In these plots, components that are not unique have no curve.",
             sets.len(),
             redundant.len(),
             sets[0]

@@ -6,21 +6,22 @@ mod numbers;
 pub(crate) mod requests;
 
 use std::borrow::Cow;
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
 use linalg::Matrix;
 use model::start::scene_size;
-use model::{ConfigurationAccuracy, ConstraintId, Mechanism, System, is_at_rest};
+use model::{ConfigurationAccuracy, ConstraintId, ContactLimits, Mechanism, System, is_at_rest};
 use rank::Limits;
 use scene::Scene;
 use solvability::{
     Analysis, Centres, Choice, ChoiceError, Continuation, Contradiction, DeletableRows,
     Distribution, ElasticSupports, Elasticity, EliminationError, Explanation, FrameVerdict,
     Freedoms, Generic, GenericVerdict, Group, GroupVerdict, MomentVerdict, NamedChoice,
-    NoFiniteReaction, Numbers, Proposals, Questions, ReactionBounds, ReactionNumber,
-    ReactionValues, ReactionVerdict, Replacements, Rows, Sensitivities, Sensitivity, Solution,
-    State, analyse_decided, analyse_dropping, analyse_with_progress, generic,
-    generic_with_verdicts, is_locked, no_finite_reactions, second_order, solution,
+    NoFiniteReaction, Numbers, PermittedError, PermittedReactions, Proposals, Questions,
+    ReactionBounds, ReactionNumber, ReactionValues, ReactionVerdict, Replacements, Rows,
+    Sensitivities, Sensitivity, Solution, State, analyse_decided, analyse_dropping,
+    analyse_with_progress, generic, generic_with_verdicts, is_locked, no_finite_reactions,
+    second_order, solution,
 };
 
 use crate::elasticity;
@@ -55,12 +56,33 @@ pub struct ConfigurationAnalysis<'a> {
     pub scene: &'a Scene,
     /// The mechanism of the scene.
     pub mechanism: &'a Mechanism,
-    /// Coordinates and velocities. The velocities are empty if the rank is undecided, because none
-    /// are known to be consistent.
+    /// Coordinates and velocities. The velocities are empty if the rank is undecided, because no
+    /// consistent velocities are known.
     pub state: State,
     /// Ranks and verdicts.
     pub analysis: Arc<Analysis>,
     questions: Questions<'a>,
+    results: Results,
+}
+
+/// Results that several requests use, computed on first use.
+#[derive(Default)]
+struct Results {
+    freedoms: OnceLock<Freedoms>,
+    no_finite: OnceLock<Vec<Arc<NoFiniteReaction>>>,
+    solution: OnceLock<Solution>,
+}
+
+/// Returns a result, which is computed if it is not known.
+fn once<T>(
+    known: &OnceLock<T>,
+    compute: impl FnOnce() -> Result<T, StudyError>,
+) -> Result<&T, StudyError> {
+    if let Some(known) = known.get() {
+        return Ok(known);
+    }
+    let found = compute()?;
+    Ok(known.get_or_init(|| found))
 }
 
 /// The results for a configuration, stored for later use.
@@ -107,6 +129,7 @@ impl<'a> ConfigurationAnalysis<'a> {
             questions: Questions::new(mechanism, q, Arc::clone(&analysis)),
             state,
             analysis,
+            results: Results::default(),
         })
     }
 
@@ -144,6 +167,7 @@ impl<'a> ConfigurationAnalysis<'a> {
             questions: Questions::new(mechanism, &state.q, Arc::clone(analysis)),
             state: state.clone(),
             analysis: Arc::clone(analysis),
+            results: Results::default(),
         }
     }
 
@@ -198,7 +222,7 @@ impl<'a> ConfigurationAnalysis<'a> {
         let groups = requests::groups(self.scene, self.mechanism, combine)?;
         let numbers = groups
             .iter()
-            .map(|(_, group)| self.questions.determined(group, &solution));
+            .map(|(_, group)| self.questions.determined(group, solution));
         Ok(numbers.collect::<Result<_, _>>()?)
     }
 
@@ -245,7 +269,7 @@ impl<'a> ConfigurationAnalysis<'a> {
             let are_asked = self.analysis.decision.is_decided()
                 && reactions.iter().any(|r| r.wrench.verdict.is_unique());
             let unknown = are_asked.then(|| {
-                "how strongly reactions depend on the data is not known: no velocities are known that satisfy the constraints"
+                "the sensitivity of reactions to the data is unknown: no velocities that satisfy the constraints are available"
                     .to_owned()
             });
             return Ok(Sensitivities::unknown(reactions.len(), unknown));
@@ -281,8 +305,10 @@ impl<'a> ConfigurationAnalysis<'a> {
     ///
     /// # Errors
     /// [`StudyError::State`]
-    pub fn freedoms(&self) -> Result<Freedoms, StudyError> {
-        Ok(self.analysis.freedoms(self.mechanism, &self.state.q)?)
+    pub fn freedoms(&self) -> Result<&Freedoms, StudyError> {
+        once(&self.results.freedoms, || {
+            Ok(self.analysis.freedoms(self.mechanism, &self.state.q)?)
+        })
     }
 
     /// Computes the ranks at other configurations of the same component; `None` if none could be
@@ -292,8 +318,9 @@ impl<'a> ConfigurationAnalysis<'a> {
         generic(self.mechanism, self.analysis.time, &self.state.q)
     }
 
-    /// Computes the same ranks with the verdicts on all joints and drives there. They are the worst
-    /// verdicts at the configurations with the smallest redundancy, or `None` if unknown.
+    /// Computes the same ranks with the verdicts on all joints and drives at these configurations.
+    /// The result contains the worst verdicts at the configurations with the smallest redundancy,
+    /// or `None` if unknown.
     #[must_use]
     pub fn generic_with_verdicts(&self) -> Option<(Generic, Option<Vec<GenericVerdict>>)> {
         generic_with_verdicts(self.mechanism, self.analysis.time, &self.state.q)
@@ -337,9 +364,9 @@ impl<'a> ConfigurationAnalysis<'a> {
     }
 
     /// Whether the mechanism cannot move although its rows leave velocities free. In this case the
-    /// second-order conditions exclude all of these velocities while functions of time are held
-    /// constant. Returns `None` if the second-order conditions do not decide, and for mechanisms
-    /// with too many rows for dense matrices.
+    /// second-order conditions exclude all of these velocities while functions of time have
+    /// constant values. Returns `None` if the second-order conditions do not decide, and for
+    /// mechanisms with too many rows for dense matrices.
     ///
     /// # Errors
     /// [`StudyError::State`]
@@ -367,13 +394,16 @@ impl<'a> ConfigurationAnalysis<'a> {
     ///
     /// # Errors
     /// [`StudyError::State`]
-    pub fn no_finite_reactions(&self) -> Result<Vec<Arc<NoFiniteReaction>>, StudyError> {
-        let Some(decision) = self.analysis.whole().filter(|_| !self.has_no_velocities()) else {
-            return Ok(Vec::new());
-        };
-        let state = (self.analysis.time, &self.state.q[..], &self.state.v[..]);
-        let found = no_finite_reactions(self.mechanism, state, &decision)?;
-        Ok(found.into_iter().map(Arc::new).collect())
+    pub fn no_finite_reactions(&self) -> Result<&[Arc<NoFiniteReaction>], StudyError> {
+        let found = once(&self.results.no_finite, || {
+            let Some(decision) = self.analysis.whole().filter(|_| !self.has_no_velocities()) else {
+                return Ok(Vec::new());
+            };
+            let state = (self.analysis.time, &self.state.q[..], &self.state.v[..]);
+            let found = no_finite_reactions(self.mechanism, state, &decision)?;
+            Ok(found.into_iter().map(Arc::new).collect())
+        });
+        found.map(Vec::as_slice)
     }
 
     /// Explains the non-unique reactions. Returns `None` if the rank is undecided.
@@ -472,7 +502,7 @@ impl<'a> ConfigurationAnalysis<'a> {
             })),
             choice => Cow::Borrowed(choice),
         };
-        let mut found = self.questions.distribute(&self.solution()?, &choice)?;
+        let mut found = self.questions.distribute(self.solution()?, &choice)?;
         self.sensitivities()?.add_to(&mut found.reactions);
         Ok(found)
     }
@@ -483,7 +513,7 @@ impl<'a> ConfigurationAnalysis<'a> {
     /// # Errors
     /// [`StudyError::Choice`]: the rank is undecided; [`StudyError::Request`].
     pub fn determined_reactions(&self) -> Result<Vec<ReactionValues>, StudyError> {
-        let mut found = self.questions.determined_reactions(&self.solution()?)?;
+        let mut found = self.questions.determined_reactions(self.solution()?)?;
         self.sensitivities()?.add_to(&mut found);
         Ok(found)
     }
@@ -509,6 +539,26 @@ impl<'a> ConfigurationAnalysis<'a> {
             ..elasticity.clone()
         };
         self.questions.bounds(solution, &elasticity)
+    }
+
+    /// Returns whether a joint is one-sided or can slip.
+    pub(crate) fn has_contact_limits(&self) -> bool {
+        let limits = self.mechanism.layout().groups.iter().map(|g| &g.limits);
+        limits
+            .into_iter()
+            .any(|limits| *limits != ContactLimits::default())
+    }
+
+    /// Returns the loads that one-sided joints and contacts that grip permit, from one solution;
+    /// `None` if there are none.
+    ///
+    /// # Errors
+    /// [`PermittedError`]
+    pub fn permitted<'s>(
+        &'s self,
+        solution: &'s Solution,
+    ) -> Result<Option<PermittedReactions<'s, 'a>>, PermittedError> {
+        self.questions.permitted(solution)
     }
 
     /// Returns the search for replacements of joints; `None` if the mechanism was not analysed as
@@ -571,7 +621,11 @@ impl<'a> ConfigurationAnalysis<'a> {
     ///
     /// # Errors
     /// [`StudyError::Choice`]: the rank is undecided.
-    pub fn solution(&self) -> Result<Solution, StudyError> {
+    pub fn solution(&self) -> Result<&Solution, StudyError> {
+        once(&self.results.solution, || self.solved())
+    }
+
+    fn solved(&self) -> Result<Solution, StudyError> {
         let decision = &self.analysis.decision;
         if let rank::RankStatus::Undecided(doubt) = decision.status {
             return Err(ChoiceError::Undecided(doubt).into());
@@ -584,7 +638,7 @@ impl<'a> ConfigurationAnalysis<'a> {
         }
         let state = (self.analysis.time, &self.state.q[..], &self.state.v[..]);
         let mut found = solution(self.mechanism, state, decision)?;
-        found.no_finite = self.no_finite_reactions()?;
+        found.no_finite = self.no_finite_reactions()?.to_vec();
         Ok(found)
     }
 }

@@ -49,13 +49,14 @@ pub use report::ByName;
 pub use report::figures::RangeDocument;
 pub use run::{
     BodyOfRunDocument, ChoiceDocument, ComponentRunDocument, Ending, EventDocument,
-    LoadOfRunDocument, Run, RunDocument, TRUSTED_BALANCE, choice_file,
+    LoadOfRunDocument, PullDocument, Run, RunDocument, TRUSTED_BALANCE, choice_file,
 };
 pub use sensitivity::SensitivityDocument;
 pub use tolerance::{
     BoundsOfSamples, DescribedDocument, DrawnDocument, FailureDocument, MarkerRangeDocument,
-    MeasureRangeDocument, MovedDocument, QuantityRangeDocument, RankCountDocument,
-    ReactionRangeDocument, RowMisfitDocument, ToleranceDocument, VariedDocument, VerdictCounts,
+    MeasureRangeDocument, MovedDocument, OpeningsDocument, QuantityRangeDocument,
+    RankCountDocument, ReactionRangeDocument, RowMisfitDocument, ToleranceDocument, VariedDocument,
+    VerdictCounts,
 };
 pub use verdicts::{
     MagnitudePeakDocument, PeakDocument, RunGroupDocument, RunNumberDocument, RunReactionDocument,

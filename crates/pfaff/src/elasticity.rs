@@ -21,7 +21,7 @@ pub struct BoundsOptions {
     /// Also bound reactions for joints of any stiffness
     #[cfg_attr(feature = "command", arg(long))]
     pub bounds: bool,
-    /// Joints and drives that do not give way in --bounds; `drives` names all drives
+    /// Joints and drives that count as rigid in --bounds; `drives` names all drives
     #[cfg_attr(
         feature = "command",
         arg(long, value_name = "NAMES", value_delimiter = ',')
@@ -125,7 +125,7 @@ pub fn elasticity(
     let within = match (wanted.within, &wanted.compliance) {
         (None, None) => None,
         (None, Some(_)) => {
-            let message = "nominal compliances are the smallest ones: add `within`, the largest ratio to them";
+            let message = "nominal compliances are lower limits: add `within`, the largest ratio to these limits";
             return Err(Refusal::input(message.to_owned()));
         }
         (Some(factor), _) if !(factor.is_finite() && factor >= 1.0) => {
@@ -177,6 +177,9 @@ pub(crate) fn assumption(
             Some(_) => "of the nominal ones",
         };
         text += &format!("; compliances are within a factor of {factor} {nominal}");
+    }
+    if open.iter().any(|g| g.limits.open_side.is_some()) {
+        text += "; one-sided joints stay closed";
     }
     if slips {
         text += "; contacts slip in proportion to their force";

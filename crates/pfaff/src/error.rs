@@ -15,6 +15,9 @@ use solvability::{
     RequestError, StateError,
 };
 
+/// Code of a run that ended because its one-sided joints opened.
+pub(crate) const OPENING: Code = Code::new(429);
+
 /// Reason why there are no results, or only partial results.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
@@ -39,7 +42,7 @@ pub enum StudyError {
     NoEnd,
     /// Choices or bounds are requested for a run that writes no reactions.
     #[error(
-        "choices and bounds need reactions, but `[output] reactions` of the scene is false: write reactions, or leave out --choose and --bounds"
+        "choices and bounds need reactions, but `[output] reactions` of the scene is false: write reactions, or omit --choose and --bounds"
     )]
     NoReactions,
     /// The bounds that the scene requests do not fit its mechanism.
@@ -62,7 +65,7 @@ pub enum StudyError {
     },
     /// A joint or force has the name of another load in a table of the loads on a body.
     #[error(
-        "the table of the loads on `{body}` has columns `{name}.Fx` … of its own: give the joint or force `{name}` another name, or remove the body from [output] bodies"
+        "the table of the loads on `{body}` already has columns `{name}.Fx` …: rename the joint or force `{name}`, or remove the body from [output] bodies"
     )]
     LoadName {
         /// Name of the body.
@@ -153,6 +156,11 @@ pub enum StudyError {
 }
 
 impl StudyError {
+    /// Returns whether a run ended because its one-sided joints opened.
+    pub(crate) fn is_opening(&self) -> bool {
+        self.code() == OPENING
+    }
+
     /// Returns the code of the error; see [`model::codes`].
     #[must_use]
     pub fn code(&self) -> Code {
@@ -221,7 +229,7 @@ impl StudyError {
                 Some(format!("this start cannot be simulated: {e}"))
             }
             Self::SingularStart { contradiction, .. } => Some(format!(
-                "no motion begins with these velocities: {contradiction}"
+                "no motion has these initial velocities: {contradiction}"
             )),
             _ => None,
         }

@@ -46,8 +46,8 @@ fn own_pool() -> Option<Arc<ThreadPool>> {
     Some(pool)
 }
 
-/// Does work whose parallel parts run on threads of this process. In a forked process the whole
-/// work runs on a thread of its own pool.
+/// Does work whose parallel parts run on threads of this process. In a forked process, a new pool
+/// runs the whole work.
 pub fn on_own_threads<T: Send>(work: impl FnOnce() -> T + Send) -> T {
     match own_pool() {
         Some(pool) => pool.install(work),

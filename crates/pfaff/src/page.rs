@@ -3,8 +3,8 @@
 //! an animation of the mechanism, verdicts as text, and curves with a cursor at the time of the
 //! animation.
 //!
-//! A reaction that is not unique has no curve of its own: it is drawn as a band between named
-//! choices ([`Comparison`]).
+//! A reaction that is not unique has no single curve: it is drawn as a band between named choices
+//! ([`Comparison`]).
 //!
 //! | module | content |
 //! | --- | --- |
@@ -12,7 +12,7 @@
 //! | `first_order` | free motions and self-stresses at the start |
 //! | `cast`, `values` | the drawn part, and the determined values |
 //! | `data` | bodies, joints and curves as one JSON document, rounded |
-//! | `document`, `motion`, `verdicts`, `peaks`, `assumptions`, `inputs` | the sections of the page |
+//! | `document`, `motion`, `verdicts`, `contacts`, `peaks`, `assumptions`, `inputs` | the sections of the page |
 //! | `report.css`, `script/` | style sheet, and scripts |
 //!
 //! A page for a customer ([`scene::PrintStyle::Customer`]) has the same sentences in fewer
@@ -27,6 +27,7 @@
 mod assumptions;
 mod cast;
 mod comparison;
+mod contacts;
 mod curves;
 mod data;
 mod document;

@@ -6,14 +6,26 @@ use model::{ConstraintId, Mechanism, Reaction, SpaceKind, System};
 use report::{Peak, PeakRecorder, Quantity, ReactionColumn};
 use solvability::{ReactionStretches, Stretches, VerdictTrack};
 
+/// Recorder of the peaks of |F| and |T| of joints and drives while rows are added.
+pub(crate) struct MagnitudesOfRun {
+    space: SpaceKind,
+    reactions: Vec<ConstraintId>,
+    recorder: PeakRecorder,
+}
+
+/// The peak of a magnitude over a run.
+pub(crate) struct MagnitudePeak {
+    /// `None` if the magnitude is not determined at any row.
+    peak: Option<Peak>,
+    /// `None` if the magnitude is zero under any load.
+    verdicts: Option<VerdictTrack>,
+}
+
 /// Recorder of the peaks while rows are added.
 pub(crate) struct PeaksOfRun {
-    space: SpaceKind,
     columns: Vec<ReactionColumn>,
-    /// The joints and drives of the columns.
-    reactions: Vec<ConstraintId>,
     numbers: PeakRecorder,
-    magnitudes: PeakRecorder,
+    magnitudes: MagnitudesOfRun,
 }
 
 /// The peaks of a run, each `None` if the value is not determined at any row.
@@ -34,13 +46,10 @@ impl PeaksOfRun {
         });
         let mut reactions: Vec<ConstraintId> = of_columns.collect();
         reactions.dedup();
-        let cuts = &mechanism.layout().break_times;
         Self {
-            space: mechanism.space(),
-            numbers: PeakRecorder::new(columns.len(), cuts),
-            magnitudes: PeakRecorder::new(2 * reactions.len(), cuts),
+            numbers: PeakRecorder::new(columns.len(), &mechanism.layout().break_times),
+            magnitudes: MagnitudesOfRun::new(mechanism, reactions),
             columns,
-            reactions,
         }
     }
 
@@ -52,11 +61,8 @@ impl PeaksOfRun {
 
     /// Adds a row: the values of the columns, and the reactions of all joints and drives.
     pub(crate) fn row(&mut self, t: f64, values: &[f64], all: &[Reaction]) {
-        self.numbers.row(t, values);
-        let own = self.reactions.iter().filter_map(|id| all.get(id.0));
-        let magnitudes = own.flat_map(|load| [norm(&load.force), norm(&load.torque)]);
-        let magnitudes: Vec<f64> = magnitudes.collect();
-        self.magnitudes.row(t, &magnitudes);
+        self.numbers.row(t, values.iter().copied());
+        self.magnitudes.row(t, all);
     }
 
     /// Returns the peaks of the determined values.
@@ -65,19 +71,8 @@ impl PeaksOfRun {
         let tracks = columns.map(|column| column.quantity.verdicts(stretches));
         let tracks: Vec<Option<&VerdictTrack>> = tracks.collect();
         let numbers = self.numbers.finish(&tracks, stretches.extent);
-        let parts = [self.space.forces(), self.space.torques()];
-        let of = |id: &ConstraintId| {
-            let found = stretches.reactions.get(id.0);
-            let names = parts.clone().map(|part| &self.space.components()[part]);
-            names.map(|names| found.and_then(|found| together(found, names)))
-        };
-        let owned: Vec<Option<VerdictTrack>> = self.reactions.iter().flat_map(of).collect();
-        let tracks: Vec<Option<&VerdictTrack>> = owned.iter().map(Option::as_ref).collect();
-        let found = self.magnitudes.finish(&tracks, stretches.extent);
-        let known = found.into_iter().zip(tracks);
-        let mut known = known.map(|(peak, track)| peak.filter(|_| track.is_some()));
-        let mut next = || known.next().flatten();
-        let magnitudes = self.reactions.iter().map(|id| (*id, [next(), next()]));
+        let magnitudes = self.magnitudes.finish(stretches).into_iter();
+        let magnitudes = magnitudes.map(|(id, peaks)| (id, peaks.map(MagnitudePeak::determined)));
         FoundPeaks {
             magnitudes: magnitudes.collect(),
             columns: self.columns.iter().cloned().zip(numbers).collect(),
@@ -85,8 +80,73 @@ impl PeaksOfRun {
     }
 }
 
+impl MagnitudesOfRun {
+    /// Creates a recorder for these joints and drives.
+    pub(crate) fn new(mechanism: &Mechanism, reactions: Vec<ConstraintId>) -> Self {
+        let cuts = &mechanism.layout().break_times;
+        Self {
+            space: mechanism.space(),
+            recorder: PeakRecorder::new(2 * reactions.len(), cuts),
+            reactions,
+        }
+    }
+
+    /// Returns the joints and drives.
+    pub(crate) fn reactions(&self) -> &[ConstraintId] {
+        &self.reactions
+    }
+
+    /// Adds a time at which the verdicts may change.
+    pub(crate) fn cut(&mut self, t: f64) {
+        self.recorder.cut(t);
+    }
+
+    /// Adds a row with the reactions of all joints and drives.
+    pub(crate) fn row(&mut self, t: f64, all: &[Reaction]) {
+        let own = self.reactions.iter().filter_map(|id| all.get(id.0));
+        let magnitudes = own.flat_map(|load| [norm(&load.force), norm(&load.torque)]);
+        self.recorder.row(t, magnitudes);
+    }
+
+    /// Returns the joints and drives with the peaks of |F| and |T|.
+    pub(crate) fn finish(&self, stretches: &Stretches) -> Vec<(ConstraintId, [MagnitudePeak; 2])> {
+        let parts = [self.space.forces(), self.space.torques()];
+        let of = |id: &ConstraintId| {
+            let found = stretches.reactions.get(id.0);
+            let names = parts.clone().map(|part| &self.space.components()[part]);
+            names.map(|names| found.and_then(|found| together(found, names)))
+        };
+        let verdicts: Vec<[Option<VerdictTrack>; 2]> = self.reactions.iter().map(of).collect();
+        let tracks = verdicts.iter().flatten().map(Option::as_ref);
+        let tracks: Vec<Option<&VerdictTrack>> = tracks.collect();
+        let mut peaks = self.recorder.finish(&tracks, stretches.extent).into_iter();
+        let mut found = |verdicts| MagnitudePeak {
+            peak: peaks.next().flatten(),
+            verdicts,
+        };
+        let each = self.reactions.iter().zip(verdicts);
+        each.map(|(id, verdicts)| (*id, verdicts.map(&mut found)))
+            .collect()
+    }
+}
+
+impl MagnitudePeak {
+    /// Returns the peak over the intervals on which the magnitude is determined, unless the
+    /// magnitude is zero under any load.
+    fn determined(self) -> Option<Peak> {
+        self.peak.filter(|_| self.verdicts.is_some())
+    }
+
+    /// Returns the peak, if the magnitude is determined on the whole run.
+    pub(crate) fn of_run(self) -> Option<Peak> {
+        let verdicts = self.verdicts.as_ref();
+        let is_unique = verdicts.is_none_or(|verdicts| verdicts.of_run().is_unique());
+        self.peak.filter(|_| is_unique)
+    }
+}
+
 /// The verdicts on these components together; `None` if all of them are zero under any load.
-fn together(found: &ReactionStretches, names: &[&str]) -> Option<VerdictTrack> {
+pub(crate) fn together(found: &ReactionStretches, names: &[&str]) -> Option<VerdictTrack> {
     let tracks = names.iter().filter_map(|name| found.component(name));
     let tracks: Vec<&VerdictTrack> = tracks.collect();
     (!tracks.is_empty()).then(|| VerdictTrack::together(&tracks))

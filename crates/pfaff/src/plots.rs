@@ -136,7 +136,7 @@ fn resolved(
                 unit => format!("`{}` is in {unit}", column.name),
             });
             return Err(StudyError::Plots(format!(
-                "{first}, {second}: a plot has one unit; write a plot for each"
+                "{first}, {second}: all curves of a plot have one unit; write a plot for each unit"
             )));
         }
         let curves = own
@@ -166,7 +166,7 @@ fn unknown(name: &str, known: &[TableColumn], scene: &Scene) -> String {
     } else if scene.output.reactions == WantedReactions::None {
         "`reactions` is false".to_owned()
     } else {
-        "write a column of reactions.csv, loads.csv or trajectory.csv, as `A.Fx`".to_owned()
+        "write a column of reactions.csv, loads.csv or trajectory.csv, such as `A.Fx`".to_owned()
     };
     format!("there is no column `{name}`: {advice}")
 }

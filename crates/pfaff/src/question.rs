@@ -90,7 +90,7 @@ impl<'s> Subject<'s> for Vec<&'s Start<'s>> {
 }
 
 /// An answer. It owns all data that its text and files need, so that it can outlive the thread and
-/// the scene. As a document, its fields are the keys, in the order of the fields.
+/// the scene. The fields of an answer are the keys of its JSON document, in the same order.
 pub trait Answer: Serialize + Send + 'static {
     /// Returns the answer as text.
     fn words(&self) -> Vec<Block>;
@@ -201,8 +201,8 @@ pub enum Writing {
     Meanwhile {
         /// Whether several processes write into the directory at the same time.
         shared: bool,
-        /// Called if the process has to end immediately; returns a text on the saved results. Its
-        /// argument is the name that [`Progress::Writing`] announced.
+        /// Called if the process has to end immediately; returns a text on the saved results. The
+        /// argument of the callback is the name that [`Progress::Writing`] announced.
         cut: fn(&OutputDirectory, Option<&str>) -> String,
     },
 }
@@ -300,7 +300,7 @@ impl<Q: Question> AnyQuestion for Q {
         let subject = Q::Subject::of(scenes).ok_or_else(|| {
             let (name, (least, _)) = (Q::NAME, Q::Subject::COUNT);
             let expected = count(least, "scene", "scenes");
-            Refusal::input(format!("`{name}` asks about {expected}, not {n}"))
+            Refusal::input(format!("`{name}` needs {expected}, not {n}"))
         })?;
         Ok(Box::new(self.answer(subject, control)?))
     }

@@ -5,6 +5,7 @@
 use std::ops::ControlFlow;
 
 use crate::bounds_of_run::FoundBounds;
+use crate::contacts;
 use crate::documents::MakeUniqueDocument;
 use crate::documents::{AnalysisDocument, RunDocument};
 use crate::page::{DriveCurve, Origin, RunPage, Shows, WrittenScene, numbers_per_row, run_page};
@@ -20,6 +21,7 @@ use crate::comparison::compare;
 use crate::configuration::ConfigurationAnalysis;
 use crate::error::StudyError;
 use crate::plots::PlotRecorder;
+use crate::pulls::{PullTimes, PullWarning};
 use crate::questions::analyze::remedies::RemedyDocument;
 use crate::rows::{RowFault, RowSink};
 use crate::words::scene_units;
@@ -147,6 +149,9 @@ impl<'a> ReportBuilder<'a> {
         let (comparisons, mut left_out) = compare(mechanism, &self.recording, is_open, &choices);
         let (mut analysis, hints) = self.analysis(start, remedies);
         analysis.warnings.extend(self.scene.cautions());
+        let pulling = PullWarning::new(&run.pulls, PullTimes::Run);
+        let pulling = pulling.map(|warning| warning.to_string());
+        analysis.warnings.extend(pulling);
         analysis.add_sensitivities(sensitivities, mechanism.layout());
         analysis.add_notes(mechanism.layout());
         if self.ends_only {
@@ -192,6 +197,10 @@ impl<'a> ReportBuilder<'a> {
             document.explain(&explanation, start.mechanism.layout());
         }
         document.answers.remedies = remedies.to_vec();
+        // Contacts whose loads cannot be computed must not prevent the page.
+        if let Err(e) = contacts::add(&[], start, &mut document) {
+            document.warnings.push(format!("contacts: {e}"));
+        }
         let limits = Limits {
             trials: HINT_TRIALS,
             ..Limits::default()

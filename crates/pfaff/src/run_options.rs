@@ -85,7 +85,7 @@ pub(crate) fn without_place(error: &str) -> &str {
         .map_or(error, |(words, _)| words)
 }
 
-pub(crate) const NO_ROW: &str = "rows are counted from 1; there is no row 0";
+pub(crate) const NO_ROW: &str = "row 0 does not exist: rows are counted from 1";
 
 /// Converts rows of a user, who counts from 1, to rows counted from 0.
 pub(crate) fn rows<'d, D: Deserializer<'d>>(reader: D) -> Result<Option<Vec<usize>>, D::Error> {

@@ -41,7 +41,7 @@ fn add_head(document: &mut Schema) {
     let head = json_schema!({
         "format": { "const": FORMAT, "description": "Number of the format of documents" },
         "version": { "type": "string", "description": "Version of the program" },
-        "code": { "type": "string", "description": "Why the document is not whole, as a code" },
+        "code": { "type": "string", "description": "Code of the reason why the document is incomplete" },
         "error": { "type": "string", "description": "Why the document is not whole" },
     });
     let none = || json_schema!({}).to_value();

@@ -106,8 +106,8 @@ impl<'r> Start<'r> {
         })
     }
 
-    /// Analyses the start, also if no motion can begin there, with redundant rows that may differ
-    /// from those of the scene.
+    /// Analyses the start, also if no motion can begin at the start, with redundant rows that may
+    /// differ from those of the scene.
     ///
     /// # Errors
     /// Returns the errors of [`Self::assembled`], and an error if there is no start.
@@ -199,7 +199,7 @@ impl<'r> Start<'r> {
 pub enum JudgedStart {
     /// The mechanism can move.
     Moves(Arc<Study>),
-    /// The start can be analysed, but no motion begins there.
+    /// The start can be analysed, but no motion begins at it.
     Stands(Box<Standing>),
 }
 
@@ -247,7 +247,7 @@ pub fn document_of(
     let layout = configuration.mechanism.layout();
     let name = configuration.scene.name();
     let mut document = AnalysisDocument::new(name, &configuration.analysis, None)
-        .with_freedoms(&configuration.freedoms()?, configuration.mechanism);
+        .with_freedoms(configuration.freedoms()?, configuration.mechanism);
     if let Some(explanation) = configuration.explanation()? {
         document.explain(&explanation, layout);
     }

@@ -6,7 +6,8 @@ use std::sync::Mutex;
 
 use crate::documents::{AnalysisDocument, Run, RunDocument};
 use crate::documents::{
-    DataDocument, Gap, MomentDocument, MotionDocument, RunVerdicts, SpreadDocument,
+    BodyOfRunDocument, DataDocument, Gap, MomentDocument, MotionDocument, PullDocument,
+    RunVerdicts, SpreadDocument,
 };
 use crate::page::Origin;
 use dynamics::equilibrium::{Equilibrium, EquilibriumError, EquilibriumOptions, equilibrium};
@@ -34,11 +35,12 @@ use solvability::{
 
 use crate::assembled::{AssembledScene, refused};
 use crate::body_loads::{BodyLoads, joints_of};
-use crate::bounds_of_run::{self, BOUNDS, BoundsOfRun};
+use crate::bounds_of_run::{self, BOUNDS, BoundsOfRun, FoundBounds};
 use crate::configuration::{AskedRows, ConfigurationAnalysis, requests};
 use crate::error::StudyError;
 use crate::loads_of_run::{self, LOADS, LoadsOfRun};
 use crate::peaks_of_run::{FoundPeaks, PeaksOfRun};
+use crate::pulls::PullsOfRun;
 use crate::questions::analyze::remedies::RemedyDocument;
 use crate::report_builder::{OfRun, ReportBuilder};
 use crate::rows::{Calling, RowFault, RowSink, RunEnd, run_into};
@@ -711,7 +713,9 @@ impl Study {
                 (all, true),
             )
         });
+        let mut pulls = PullsOfRun::begin(&self.scene, mechanism, every);
         let mut sinks: Vec<&mut dyn RowSink> = vec![&mut path, &mut caller];
+        sinks.extend(pulls.as_mut().map(|sink| sink as &mut dyn RowSink));
         sinks.extend(bounds.as_mut().map(|sink| sink as &mut dyn RowSink));
         let ended = run_into(&plan, (&goes_on, stop), &mut |_| goes_on(0.0), &mut sinks)?;
         if let Some(bounds) = &mut bounds {
@@ -720,19 +724,18 @@ impl Study {
         let found = ended.summary.verdicts.as_ref();
         let peaks = found.map_or_else(FoundPeaks::default, |found| peaks.finish(found));
         let written = WrittenRun {
+            pulls: pulls.map_or_else(Vec::new, |pulls| pulls.found(found)),
             spread: path.spread_of(&plan, &ended, stop),
             rows,
             peaks: &peaks,
             files: &[],
             gaps: &gaps,
+            loads: loads.as_ref(),
+            bodies: Vec::new(),
+            elasticity,
+            bounds: bounds.as_ref().map(BoundsOfRun::found),
         };
-        let mut document = begun.document(&plan, &ended, written);
-        document.case.clone_from(&self.case);
-        document.loads = loads_of_run::documents(loads.as_ref());
-        if let Some(elasticity) = elasticity {
-            let found = bounds.as_ref().map(BoundsOfRun::found);
-            bounds_of_run::add_to(&mut document, mechanism, elasticity, found);
-        }
+        let document = begun.document(&plan, &ended, written);
         Ok(EndedRun {
             bounds: bounds.map_or_else(Vec::new, BoundsOfRun::into_rows),
             document,
@@ -770,8 +773,9 @@ impl Study {
         let choices = self.choices.iter().map(|choice| start.named(choice));
         let sensitivities = start.sensitivities()?;
         Ok(RunPreparation {
+            case: self.case.as_deref(),
             choices: choices.collect::<Result<_, _>>()?,
-            freedoms: start.freedoms()?,
+            freedoms: start.freedoms()?.clone(),
             group_sensitivities: start.group_sensitivities(&sensitivities)?,
             sensitivities,
             groups: self.groups()?,
@@ -945,9 +949,12 @@ impl Study {
             Ok(ControlFlow::Continue(()))
         });
         // Without rows of reactions a run need not stop at the rows.
-        let mut loads = match output.reactions {
-            WantedReactions::None => None,
-            _ => LoadsOfRun::begin(Some((directory, units)), mechanism, table_rows)?,
+        let (mut loads, mut pulls) = match output.reactions {
+            WantedReactions::None => (None, None),
+            _ => (
+                LoadsOfRun::begin(Some((directory, units)), mechanism, table_rows)?,
+                PullsOfRun::begin(&self.scene, mechanism, table_rows),
+            ),
         };
         let is_complete = (is_plain, !begun.choices.is_empty());
         let of_bodies = output.bodies.iter().map(|&body| {
@@ -957,6 +964,7 @@ impl Study {
         let mut sinks: Vec<&mut dyn RowSink> = vec![&mut path, &mut counter];
         sinks.extend(of_bodies.iter_mut().map(|sink| sink as &mut dyn RowSink));
         sinks.extend(loads.as_mut().map(|sink| sink as &mut dyn RowSink));
+        sinks.extend(pulls.as_mut().map(|sink| sink as &mut dyn RowSink));
         sinks.extend(trajectory.as_mut().map(|sink| sink as &mut dyn RowSink));
         sinks.extend(reactions.as_mut().map(|sink| sink as &mut dyn RowSink));
         sinks.extend(bounds.as_mut().map(|sink| sink as &mut dyn RowSink));
@@ -983,23 +991,21 @@ impl Study {
         });
         let bodies: Vec<_> = bodies.collect();
         files.extend(bodies.iter().map(|(_, table)| table.file.clone()));
-        let mut document = begun.document(
-            &plan,
-            &ended,
-            WrittenRun {
-                spread: path.spread_of(&plan, &ended, stop),
-                rows: written_rows,
-                files: &files,
-                gaps,
-                peaks,
-            },
-        );
-        document.case.clone_from(&self.case);
-        document.loads = loads_of_run::documents(loads.as_ref());
-        document.bodies = ByName(bodies);
-        if let Some(elasticity) = elasticity {
-            bounds_of_run::add_to(&mut document, mechanism, elasticity, found);
-        }
+        let stretches = ended.summary.verdicts.as_ref();
+        let pulls = pulls.map_or_else(Vec::new, |pulls| pulls.found(stretches));
+        let written = WrittenRun {
+            spread: path.spread_of(&plan, &ended, stop),
+            rows: written_rows,
+            files: &files,
+            gaps,
+            peaks,
+            loads: loads.as_ref(),
+            bodies,
+            pulls,
+            elasticity,
+            bounds: found,
+        };
+        let document = begun.document(&plan, &ended, written);
         let mut text = Vec::new();
         write_json(&mut text, &document).map_err(|source| TableError::Write {
             table: "summary.json",
@@ -1014,7 +1020,7 @@ impl Study {
                 start: &begun.start,
                 sensitivities: &begun.sensitivities,
                 document: &document,
-                stretches: ended.summary.verdicts.as_ref(),
+                stretches,
                 bounds: found,
                 remedies: &self.remedies,
             };
@@ -1034,6 +1040,8 @@ impl Study {
 
 /// Data of a run that are known before it begins.
 struct RunPreparation<'s> {
+    /// The load case whose values the scene has.
+    case: Option<&'s str>,
     start: ConfigurationAnalysis<'s>,
     freedoms: Freedoms,
     sensitivities: Sensitivities,
@@ -1051,6 +1059,15 @@ struct WrittenRun<'w> {
     files: &'w [String],
     gaps: &'w [Option<Gap>],
     peaks: &'w FoundPeaks,
+    loads: Option<&'w LoadsOfRun<'w>>,
+    /// The tables of the loads on bodies, by the names of the bodies.
+    bodies: Vec<(String, BodyOfRunDocument)>,
+    /// Contacts that pull.
+    pulls: Vec<PullDocument>,
+    /// The elastic joints of the requested bounds.
+    elasticity: Option<&'w Elasticity>,
+    /// The columns of the bounds, with the results.
+    bounds: Option<(&'w [ReactionColumn], &'w FoundBounds)>,
 }
 
 impl RunPreparation<'_> {
@@ -1103,7 +1120,7 @@ impl RunPreparation<'_> {
 
     fn document(&self, plan: &Plan<'_>, ended: &RunEnd, written: WrittenRun<'_>) -> RunDocument {
         let verdicts = ended.summary.verdicts.as_ref();
-        RunDocument::new(&Run {
+        let mut document = RunDocument::new(&Run {
             plan,
             reactions: &self.start.analysis.reactions,
             sensitivities: &self.sensitivities,
@@ -1120,7 +1137,17 @@ impl RunPreparation<'_> {
             rows: written.rows,
             files: written.files,
             gaps: written.gaps,
-        })
+        });
+        document.case = self.case.map(str::to_owned);
+        document.loads = loads_of_run::documents(written.loads);
+        document.bodies = ByName(written.bodies);
+        document.pulls = written.pulls;
+        if let Some(elasticity) = written.elasticity {
+            let mechanism = self.start.mechanism;
+            let found = written.bounds;
+            bounds_of_run::add_to(&mut document, mechanism, elasticity, found, verdicts);
+        }
+        document
     }
 }
 

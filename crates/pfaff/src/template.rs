@@ -1,4 +1,4 @@
-//! Templates for scenes: the scenes of `examples/`, which are tested there.
+//! Templates for scenes: the scenes of `examples/`, which have their own tests.
 
 /// Longest summary (bytes).
 const WIDTH: usize = 96;

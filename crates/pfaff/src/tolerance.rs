@@ -10,7 +10,7 @@
 //! ([`Variation`]).
 //!
 //! If rows are redundant within the tolerances, samples are assembled on the independent rows. The
-//! small violations of the redundant rows are a result. The second analysis of each sample takes
+//! small violations of the redundant rows are a result. The second analysis of each sample treats
 //! its numbers as exact, without clearance; see [`Sample`].
 //!
 //! Ranges are computed in the order of the samples, so the number of threads does not change any

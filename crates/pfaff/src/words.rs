@@ -3,8 +3,8 @@
 mod table;
 
 pub use report::SceneUnits;
-pub(crate) use table::Scale;
 pub use table::{Cell, UnitSystem, scene_units};
+pub(crate) use table::{Scale, cells_of_table};
 
 use std::iter;
 

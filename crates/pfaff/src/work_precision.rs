@@ -381,7 +381,9 @@ const GIVEN_UP: &str = "given up";
 
 fn given_up_before(row: WorkPrecisionRow, looser: f64) -> WorkPrecisionRow {
     WorkPrecisionRow {
-        status: format!("{GIVEN_UP}: as at the tolerance {looser:.0e}"),
+        status: format!(
+            "{GIVEN_UP}: the run at the larger tolerance {looser:.0e} was stopped, too"
+        ),
         ..row
     }
 }
@@ -400,7 +402,7 @@ impl Pair {
         let [a, b] = self.methods;
         let apart = self.mean.motion_limit();
         let mut words = format!(
-            "{a} and {b} at {:.0e} agree to {apart}",
+            "results of {a} and {b} at tolerance {:.0e} agree to {apart}",
             self.tolerance,
             apart = rough(apart)
         );

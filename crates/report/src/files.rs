@@ -48,7 +48,7 @@ pub enum FileError {
         source: io::Error,
     },
     /// The name is not a plain file name, so that the file would be outside the directory.
-    #[error("`{name}` is not the name of a file inside `{}`: leave out directories", directory.display())]
+    #[error("`{name}` is not the name of a file inside `{}`: omit directories", directory.display())]
     Name {
         /// The name.
         name: String,
@@ -345,8 +345,8 @@ impl OutputDirectory {
         self
     }
 
-    /// Opens a directory inside this one, and creates it if it does not exist. Both end together:
-    /// see [`Self::abandon`].
+    /// Opens a directory inside this one, and creates it if it does not exist. Both directories end
+    /// together: see [`Self::abandon`].
     ///
     /// # Errors
     /// - [`FileError::Name`]: the name is empty or contains a directory.
@@ -467,7 +467,7 @@ impl OutputDirectory {
     }
 
     /// Removes the files of this family that are not in `files`, including those with the name
-    /// `.part`. They belong to an earlier result and could be mistaken for a part of the new
+    /// `.part`. These files belong to an earlier result and could be mistaken for a part of the new
     /// result. A file that pfaff has not written is not removed. Returns the names of the removed
     /// files.
     ///

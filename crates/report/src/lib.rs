@@ -35,8 +35,8 @@ pub use sweep::{SweepDocument, SweepPlan, SweepRow, SweepStatus};
 pub use tables::{
     BoundsTable, Column, LoadTable, MoreColumns, Quantity, ReactionColumn, ReactionTable,
     Selection, Table, TableError, Trajectory, TrajectoryTable, columns_of_reactions, load_columns,
-    load_numbers, numbers_of_columns, reaction_columns, reaction_component, write_chosen,
-    write_determined, write_open_bounds,
+    load_numbers, matrix_table, numbers_of_columns, reaction_columns, reaction_component,
+    write_chosen, write_determined, write_open_bounds,
 };
 pub use units::SceneUnits;
 pub use work_precision::{

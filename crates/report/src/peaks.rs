@@ -51,12 +51,12 @@ impl PeakRecorder {
         }
     }
 
-    /// Adds a row. NaN does not count as a value.
-    pub fn row(&mut self, t: f64, values: &[f64]) {
+    /// Adds a row, with a value for each column. NaN does not count as a value.
+    pub fn row(&mut self, t: f64, values: impl IntoIterator<Item = f64>) {
         let passed = self.cuts.partition_point(|cut| *cut <= t);
         let begins = passed > self.passed;
         self.passed = self.passed.max(passed);
-        for (peaks, &value) in self.columns.iter_mut().zip(values) {
+        for (peaks, value) in self.columns.iter_mut().zip(values) {
             match peaks.last_mut() {
                 Some(peak) if !begins => {
                     if value.abs() > peak[0].abs() || peak[0].is_nan() {
@@ -114,7 +114,7 @@ mod tests {
     fn a_peak_is_one_of_determined_cells() {
         let mut peaks = PeakRecorder::new(1, &[1.0]);
         for (t, value) in [(0.0, 2.0), (0.5, -5.0), (1.0, 90.0), (2.0, 100.0)] {
-            peaks.row(t, &[value]);
+            peaks.row(t, [value]);
         }
         let stretch = |from, to, verdict| VerdictStretch { from, to, verdict };
         let track = VerdictTrack::of([
@@ -128,5 +128,21 @@ mod tests {
             over: vec![[0.0, 1.0]],
         };
         assert_eq!(found, [Some(peak)]);
+    }
+
+    /// The peak is the first of equal values, and NaN is no value.
+    #[test]
+    fn a_peak_is_the_first_of_equals() {
+        let mut peaks = PeakRecorder::new(1, &[]);
+        for (t, value) in [(0.0, f64::NAN), (1.0, 0.0), (2.0, -3.0), (3.0, 3.0)] {
+            peaks.row(t, [value]);
+        }
+        peaks.row(4.0, [f64::NAN]);
+        let peak = Peak {
+            value: Value::unique(-3.0),
+            time: 2.0,
+            over: vec![[0.0, 4.0]],
+        };
+        assert_eq!(peaks.finish(&[None], [0.0, 4.0]), [Some(peak)]);
     }
 }

@@ -1,5 +1,5 @@
-//! The output rows of a run that are stored for the report. Their number is limited, so that the
-//! report is small. This module computes no values.
+//! The output rows of a run that are stored for the report. The number of stored rows is limited,
+//! so that the report is small. This module computes no values.
 
 use model::Reaction;
 

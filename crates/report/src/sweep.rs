@@ -3,8 +3,8 @@
 //!
 //! During the sweep, a line is appended to a journal for each finished run. When all runs of a
 //! shard have rows, the rows are written into one file, and the journals are removed. Tables are
-//! computed completely from journals and shards, in the order of the grid. They do not depend on
-//! the processes that made the runs or on the time of the runs.
+//! computed completely from journals and shards, in the order of the grid. The tables do not depend
+//! on the processes that performed the runs, or on the time of the runs.
 //!
 //! Only this module reads these files.
 //!
@@ -37,7 +37,7 @@ pub use error::{Difference, JournalError};
 pub use journal::Journal;
 pub use line::digest;
 pub use records::Records;
-pub use row::{BoundsOfRun, Extreme, SweepMotion, SweepRow, SweepStatus};
+pub use row::{BoundsOfRun, SweepMotion, SweepRow, SweepStatus};
 pub use runs::Runs;
 pub use shards::{Shards, end_attempts};
 pub use tables::{FAMILY, write_sweep};

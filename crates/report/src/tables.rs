@@ -11,9 +11,10 @@ mod reactions;
 mod tests;
 mod trajectory;
 
-use model::codes::Code;
 use std::io::{self, BufWriter, Write};
+use std::iter;
 
+use model::codes::Code;
 use serde::Serialize;
 
 use crate::units::SceneUnits;
@@ -73,6 +74,26 @@ impl TableError {
     }
 }
 
+/// Writes a matrix as CSV: a header with the name of the matrix and the names of its columns, then
+/// each row after its name.
+///
+/// # Errors
+/// - [`TableError::Write`]: the writer failed.
+pub fn matrix_table<'m>(
+    name: &'static str,
+    columns: &[String],
+    rows: impl IntoIterator<Item = (&'m String, &'m [f64])>,
+) -> Result<Vec<u8>, TableError> {
+    let header = iter::once(name).chain(columns.iter().map(String::as_str));
+    let header: Vec<String> = header.map(str::to_owned).collect();
+    let mut table = Table::new(name, Vec::new(), &header)?;
+    for (label, row) in rows {
+        let numbers = row.iter().map(f64::to_string);
+        table.record(iter::once(label.clone()).chain(numbers).collect::<Vec<_>>())?;
+    }
+    table.finish()
+}
+
 /// A CSV writer with a fixed number of columns.
 pub struct Table<W: Write> {
     name: &'static str,
@@ -111,7 +132,7 @@ impl<W: Write> Table<W> {
         columns: impl IntoIterator<Item = (String, &'static str)>,
         units: Option<SceneUnits>,
     ) -> Result<Self, TableError> {
-        let columns = std::iter::once(("t".to_owned(), "s")).chain(columns);
+        let columns = iter::once(("t".to_owned(), "s")).chain(columns);
         let Some(chosen) = units else {
             let names: Vec<String> = columns.map(|(name, _)| name).collect();
             return Self::new(name, out, &names);

@@ -128,7 +128,9 @@ pub(crate) fn variants(mechanism: &Mechanism, variants: &[Variant]) -> String {
         let row = group.rows.row(0) + 1;
         let deleted_in_all = group.rows.len() == 1 && DELETED.iter().all(|d| d.contains(&row));
         let note = match PUBLISHED.contains(&group.name.as_str()) {
-            true if deleted_in_all => "a choice: deleted, and so zero, in all three",
+            true if deleted_in_all => {
+                "the choice deletes its row in all three variants, so the reaction is zero"
+            }
             true => "a choice: different in each",
             false => "the same",
         };
@@ -141,7 +143,7 @@ pub(crate) fn variants(mechanism: &Mechanism, variants: &[Variant]) -> String {
     out
 }
 
-/// Comparison of the motion on generated code with that of a variant.
+/// Comparison of the motion with generated code and the motion of a variant.
 pub(crate) fn generated(variant: &Variant, generated: &Variant) -> String {
     let [a, b] = generated.deleted;
     let s = &generated.summary;

@@ -1,4 +1,4 @@
-"""Verdicts: which reactions are unique, and what would make other reactions unique."""
+"""Verdicts: the unique reactions, and changes that make other reactions unique."""
 
 from __future__ import annotations
 
@@ -44,11 +44,27 @@ class ComponentVerdict:
 
     Components in other frames, components of moments and components of sums have no such verdict.
     """
+    permitted: tuple[float, float] | None = None
+    """The lowest and the highest value that one-sided joints and grip permit (N, N·m).
+
+    The value is ``None`` for a unique component, in a scene without one-sided joints and grip, and
+    if the one-sided joints cannot all stay closed. An end without limit is infinite.
+    """
 
     @property
     def unique(self) -> bool:
         """Whether the component is unique."""
         return self.verdict == "unique"
+
+
+def _permitted(of: Mapping[str, Any] | None) -> tuple[float, float] | None:
+    if of is None or of["kind"] == "empty":
+        return None
+    lowest, highest = of["lowest"], of["highest"]
+    return (
+        -np.inf if lowest is None else lowest,
+        np.inf if highest is None else highest,
+    )
 
 
 def _components(of: Iterable[Mapping[str, Any]]) -> dict[str, ComponentVerdict]:
@@ -61,6 +77,7 @@ def _components(of: Iterable[Mapping[str, Any]]) -> dict[str, ComponentVerdict]:
             c["sensitivity"],
             c["fragile"],
             c.get("generic_verdict"),
+            _permitted(c.get("range")),
         )
         for c in of
     }
@@ -133,8 +150,8 @@ class Verdict:
     def directions(self) -> Array | None:
         """A basis of the directions in which the reaction is unique, one in each row.
 
-        The columns are the components: in the plane those of the joint, in space all six. There is
-        no row if no direction is unique. The value is ``None`` if the number of directions is
+        The columns are the components: in the plane those of the joint, in space all six. The array
+        has no row if no direction is unique. The value is ``None`` if the number of directions is
         undecided.
         """
         directions = self._entry["unique_directions"]

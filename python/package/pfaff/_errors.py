@@ -103,7 +103,7 @@ def wrong(message: str) -> InputError:
 def wrong_type(name: str, given: object, needed: str) -> ArgumentError:
     """Builds the exception for an argument of a wrong type.
 
-    Its text contains the name of the argument, the given type and the required type.
+    The text of the exception contains the name of the argument, the given type and the required type.
     """
     kind = "None" if given is None else f"`{type(given).__name__}`"
     return ArgumentError(*_words(f"{name} is {kind}, need {needed}"))

@@ -15,12 +15,13 @@ from ._comparison import WorkPrecision
 
 
 class Questions:
-    """The questions that are asked of a scene: methods of :class:`Scene`.
+    """Questions about a scene: methods of :class:`Scene`.
 
-    All take the same last keywords. ``tolerance`` (m) and ``angle_tolerance`` (rad) say what the
-    numbers of the scene are known to, in place of those of the scene. ``max_memory`` (bytes, or as
-    ``"4GB"``) refuses what needs more; ``threads`` is the number of threads, by default one for
-    each core. ``out`` is a directory for the files of the command of the same name.
+    All methods accept the same final keywords. ``tolerance`` (m) and ``angle_tolerance`` (rad)
+    state the accuracy of the numbers of the scene and replace the tolerances of the scene.
+    ``max_memory`` (bytes, or as ``"4GB"``) rejects computations that need more; ``threads`` is the
+    number of threads, by default one for each core. ``out`` is a directory for the files of the
+    command of the same name.
     """
 
     __slots__ = ()
@@ -77,7 +78,7 @@ class Questions:
         - ``remedies``: Propose other types of joints that make reactions unique, also in JSON and
           Python; the text always does so for small mechanisms
         - ``bounds``: Also bound reactions for joints of any stiffness
-        - ``rigid``: Joints and drives that do not give way in ``bounds``; ``drives`` names all
+        - ``rigid``: Joints and drives that count as rigid in ``bounds``; ``drives`` names all
           drives
         - ``within``: Limit the compliances in ``bounds`` to a range from the nominal ones to K
           times these
@@ -260,7 +261,7 @@ class Questions:
         - ``seed``: Random seed
         - ``at_time``: Analyse the samples at this time (s)
         - ``bounds``: Also bound reactions for joints of any stiffness
-        - ``rigid``: Joints and drives that do not give way in ``bounds``; ``drives`` names all
+        - ``rigid``: Joints and drives that count as rigid in ``bounds``; ``drives`` names all
           drives
         - ``within``: Limit the compliances in ``bounds`` to a range from the nominal ones to K
           times these

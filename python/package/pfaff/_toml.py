@@ -46,7 +46,7 @@ def string(of: str) -> str:
 
 
 def table(header: str, entries: Mapping[str, Any]) -> str:
-    """Returns a table with its header. Entries that are ``None`` are left out."""
+    """Returns a table with its header. Entries that are ``None`` are omitted."""
     lines = [header]
     for key, item in entries.items():
         if item is not None:

@@ -329,7 +329,7 @@ fn who_does_not_say_how_long_is_told_how() {
 
 /// Returns the scene without the entries that a message recommends to omit.
 fn without(scene: &str, message: &str) -> String {
-    let (_, advice) = message.split_once("leave out ").expect("an advice");
+    let (_, advice) = message.split_once("omit ").expect("an advice");
     let (advice, _) = advice.split_once(", so that ").expect("its end");
     let mut text = scene.to_owned();
     for item in advice.replace(" and ", ", ").split(", ") {

@@ -480,7 +480,7 @@ fn a_verdict_has_the_one_that_holds_elsewhere_beside_it() {
     let text = stdout(&with_scene(&["analyze", "-"], UPRIGHT));
     contains(
         &text,
-        &["not unique elsewhere: pivot one.Fx, sideways.Fx, pivot three.Fx"],
+        &["unique here, not unique elsewhere: pivot one.Fx, sideways.Fx, pivot three.Fx"],
     );
     // A beam on two hinges has no other configuration.
     let output = with_scene(&["analyze", "-", "--json"], BEAM);
@@ -618,7 +618,7 @@ fn wrong_questions_have_clear_answers() {
         ),
         ("--choose", "drop:6", "drop exactly 2"),
         ("--choose", "drop:6,6", "row 6 is listed twice"),
-        ("--choose", "drop:0,6", "there is no row 0"),
+        ("--choose", "drop:0,6", "row 0 does not exist"),
         (
             "--choose",
             "drop:6,99",

@@ -131,7 +131,7 @@ fn constraints_that_cannot_be_assembled() {
         2,
         &[
             "cannot be assembled",
-            "still miss",
+            "are violated",
             "`pivot` by 2 m",
             "`other` by 2 m",
         ],
@@ -295,7 +295,7 @@ fn options_that_do_not_go_together() {
     let options = ["--method", "radau5", "--stabilisation", "none"];
     let output = pfaff(&[&simulate[..], &options[..]].concat());
     assert_eq!(output.status.code(), Some(2));
-    let message = "radau5 does not go with none: the method relies on projection";
+    let message = "radau5 cannot be combined with none: the method relies on projection";
     assert!(stderr(&output).contains(message), "{}", stderr(&output));
 }
 
@@ -407,8 +407,8 @@ fn velocities_that_contradict_the_constraints_are_refused_by_name() {
         2,
         &[
             "`omega` of body `bob` is given as 1, which row 2 (`pivot`, y) does not allow together with the other given velocities",
-            "in velocities that fit it is 0, more than 0.001 off",
-            "leave out `angular_velocity` of body `bob`, so that it follows from the others",
+            "in consistent velocities it is 0, more than 0.001 off",
+            "omit `angular_velocity` of body `bob`, so that it follows from the other velocities",
             "allow_correction = true",
             "not with these constraints",
         ],
@@ -438,7 +438,7 @@ fn velocities_that_contradict_the_constraints_are_refused_by_name() {
         2,
         &[
             "drive `motor` requires velocities that the given ones do not allow",
-            "`omega` of body `bob` is given as 0, and in velocities that fit it is 1",
+            "`omega` of body `bob` is given as 0, and in consistent velocities it is 1",
             "requires other velocities",
             "given here",
         ],

@@ -174,7 +174,7 @@ fn sums_of_reactions_have_curves_and_peaks_where_they_are_determined() {
     assert!(!row("across").contains(" N"), "{}", row("across"));
     // A group of members has a verdict and no number.
     assert!(!peaks.contains("<b>together</b>"));
-    assert!(page.contains("The combined reactions of across and together are not unique."));
+    assert!(page.contains("The combined reactions of “across” and “together” are not unique."));
 }
 
 #[test]
@@ -382,7 +382,7 @@ plots = [["left.Fy", "both pins", "left.Fx"], { title = "Heights", curves = ["he
         ),
         (
             "[[\"height\", \"left.Fy\"]]",
-            "`height` is in m, `left.Fy` is in N: a plot has one unit",
+            "`height` is in m, `left.Fy` is in N: all curves of a plot have one unit",
         ),
         ("[[\"both pin\"]]", "did you mean `both pins`?"),
         ("[[\"spring\"]]", "there are spring.Fx, spring.Fy"),

@@ -141,7 +141,7 @@ fn wrong_scenes_are_refused_with_their_places() {
     assert_eq!(twice.status.code(), Some(2));
     assert_eq!(
         stderr(&twice),
-        "error[P0001]: standard input is one scene; give the other one as a file\n"
+        "error[P0001]: standard input contains one scene; give the second scene as a file\n"
     );
 }
 

@@ -105,7 +105,7 @@ fn an_answer_removes_what_an_earlier_one_has_left() {
         expected.sort();
         assert_eq!(names(&folder), expected, "{command:?}");
         assert_eq!(folder.read("notes.txt"), "mine");
-        let told = format!("also there, from other commands: `{other}`");
+        let told = format!("the directory also contains files of other commands: `{other}`");
         assert!(words.contains(&told), "{command:?}: {words}");
     }
 }

@@ -156,7 +156,7 @@ fn drives_are_held_without_acceleration() {
     let text = stdout(&output);
     for words in [
         "drives locked at t = 0 s: `motor`",
-        "a simulation from here starts with other forces, because these functions of time accelerate: `motor`",
+        "a simulation from this position starts with other forces, because these functions of time have\naccelerations: `motor`",
     ] {
         assert!(text.contains(words), "{words}: {text}");
     }

@@ -65,14 +65,14 @@ const SLIPS: [(&str, &str, &[&str]); 8] = [
         "t_end = 1 s",
         &[
             "a number with a unit",
-            "units stand in quotes: write `\"1 s\"`",
+            "values with units need quotes: write `\"1 s\"`",
         ],
     ),
     (
         "coupler = [0, 0]",
         "coupler = [\"coupler\", 0]",
         &[
-            "the start must be corrected by 6.116 rad (angle of body `crank`), more than the allowed 0.001: as described, these miss: `B` by 0.1 m; correct the scene, or set `allow_correction = true` in `[start]`",
+            "the start must be corrected by 6.116 rad (angle of body `crank`), more than the allowed 0.001: as described, these constraints are violated: `B` by 0.1 m; correct the scene, or set `allow_correction = true` in `[start]`",
         ],
     ),
 ];
@@ -199,9 +199,12 @@ fn models_of_the_first_hours_are_read() {
     for (scene, counted) in [
         (
             place("excavator.toml"),
-            "rank 36, redundancy 10, mobility 0",
+            "rank 36 (34 without its drives), redundancy 10 (9 without), mobility 0",
         ),
-        (place("propeller-shaft.toml"), "rank 18, redundancy 11"),
+        (
+            place("propeller-shaft.toml"),
+            "rank 18 (17 without its drive), redundancy 11",
+        ),
         (gripper.to_owned(), "redundancy 1, mobility"),
     ] {
         let output = pfaff(&["analyze", &scene]);

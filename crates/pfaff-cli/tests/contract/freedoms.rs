@@ -154,7 +154,7 @@ fn what_cannot_move_is_said_to() {
     contains(
         &stderr(&output),
         &[
-            "drive `motor` asks the angle of `pin` to change at 1 rad/s, which differs from what rows 2 (`pin`, y) and 4 (`third`, y) allow",
+            "drive `motor` requires the angle of `pin` to change at 1 rad/s, which differs by 1 rad/s from the value that rows 2 (`pin`, y) and 4 (`third`, y) allow",
             "requires what the others forbid",
             "holds it",
         ],
@@ -166,7 +166,7 @@ fn what_cannot_move_is_said_to() {
 #[test]
 fn drives_that_part_later_are_named_by_every_command() {
     let scene = contradiction_at_half_a_second();
-    let names = "drives `one` and `other` contradict each other: they ask for different";
+    let names = "drives `one` and `other` contradict each other: they require different";
     let check = with_scene(&["check", "-"], &scene);
     assert_eq!(check.status.code(), Some(2));
     contains(

@@ -38,6 +38,7 @@ mod own_joint;
 mod picture;
 mod places;
 mod plan;
+mod pulling;
 mod refusals;
 mod remedies;
 mod report;

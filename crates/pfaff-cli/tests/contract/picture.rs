@@ -169,7 +169,7 @@ fn what_cannot_be_painted_is_refused_by_name() {
     }
     refused(
         &scaled("20"),
-        "the most are 25 million: take a scale up to 6.9",
+        "at most 25 million are supported: use a scale up to 6.9",
     );
     refused(
         &["view", ROBOT, "--out", &svg, "--scale", "2"],
@@ -208,7 +208,7 @@ fn names_of_any_language_and_length_are_painted() {
     }
     // No font contains a character that is not assigned.
     let said = stdout(&view("b\u{378}b", &[]));
-    let told = "x.png\nboxes, as no font here has them: U+0378\n";
+    let told = "x.png\nprinted as boxes, because no installed font has these characters: U+0378\n";
     assert!(said.ends_with(told), "{said}");
     let document = view("b\u{378}b", &["--json"]).stdout;
     let document: Value = serde_json::from_slice(&document).expect("one JSON document");

@@ -173,7 +173,7 @@ fn without_threads_one_thread_goes_on() {
         assert_eq!(output.status.code(), Some(0), "{command:?}: {text}");
         assert_eq!(
             text,
-            "note: the system does not start so many threads: one thread computes everything\n",
+            "note: the system could not start the requested threads: one thread computes everything\n",
             "{command:?}"
         );
         for name in [

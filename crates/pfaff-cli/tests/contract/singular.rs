@@ -71,14 +71,14 @@ fn a_start_that_cannot_be_left_is_judged_and_warned_of() {
     assert_eq!((&d["rank"], &d["redundancy"]), (&8.into(), &1.into()));
     let warning = d["warnings"][0].as_str().expect("a warning");
     assert!(
-        warning.starts_with("no motion begins with these velocities"),
+        warning.starts_with("no motion has these initial velocities"),
         "{warning}"
     );
     let output = with_scene(&["check", "-"], &still);
     assert_eq!(output.status.code(), Some(0), "{output:?}");
     contains(
         &stdout(&output),
-        &["warning: no motion begins with these velocities"],
+        &["warning: no motion has these initial velocities"],
     );
     let output = with_scene(
         &["simulate", "-", "--t-end", "1", "--out", "unused"],

@@ -171,7 +171,7 @@ fn what_is_asked_of_all_parts_is_told_of_all() {
             "--choose",
             "drop:6",
             format!(
-                "as many as are redundant, {p} in all: `low-1-0`, `top-1-0`, `low-1-1` and 3 more have 1 of them, but 0 of their rows are listed"
+                "must be the redundancy, {p}: `low-1-0`, `top-1-0`, `low-1-1` and 3 more have 1 such rows, but 0 of their rows are listed"
             ),
         ),
         (

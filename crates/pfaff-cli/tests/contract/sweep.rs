@@ -313,7 +313,7 @@ fn shards_make_the_whole() {
         let output = sweep(folder, &["--shard", shard]);
         assert_eq!(output.status.code(), Some(0));
         let expected = format!(
-            "shard {shard} of 5 runs: {runs} of {runs} runs: {runs} done, 0 stopped, 0 refused\nkept in {}",
+            "shard {shard} of 5 runs: {runs} of {runs} runs: {runs} done, 0 stopped, 0 rejected\nkept in {}",
             folder.text()
         );
         assert!(stdout(&output).contains(&expected), "{}", stdout(&output));
@@ -371,7 +371,7 @@ fn shards_make_the_whole() {
     assert_eq!(output.status.code(), Some(2), "{text}");
     assert!(
         text.starts_with(
-            "error[P0509]: run 3 was made twice, and differently: `status` is \"done\" in"
+            "error[P0509]: run 3 was performed twice, with different results: `status` is \"done\" in"
         ),
         "{text}"
     );
@@ -549,7 +549,7 @@ fn wrong_keys_and_changed_sweeps_have_code_2() {
             "its parts are `scene.gravity[0]`, `scene.gravity[1]`",
         ),
         ("body.bob.name=1,2", "is the text \"bob\", not a number"),
-        ("body.bob.mass=-1,-2", "none of the 2 runs can begin"),
+        ("body.bob.mass=-1,-2", "all 2 runs fail at the start"),
     ] {
         refused(&sweep(PENDULUM, vary), piece);
     }
@@ -577,7 +577,7 @@ fn wrong_keys_and_changed_sweeps_have_code_2() {
             "--out",
             folder.text(),
         ]),
-        "no sweep was begun",
+        "does not contain a sweep",
     );
     refused(
         &pfaff(&[

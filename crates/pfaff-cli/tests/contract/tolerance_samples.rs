@@ -33,7 +33,7 @@ fn a_pin_that_is_off_has_a_range_in_a_sentence() {
     let set = "joint.pivot-3.at[0]=0.5004";
     let text = flat(&said(&[CRANKS, "--set", set, "--tolerance", "1e-6"]));
     for words in [
-        "uniform within ± 1 µm",
+        "uniform errors within ± 1 µm",
         "as described: rank 12 of 12 rows, redundancy 0, mobility 0",
         "the rank without tolerance is the same in all samples",
         "unique, FRAGILE |F| ",

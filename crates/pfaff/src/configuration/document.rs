@@ -7,6 +7,7 @@ use solvability::{ReactionVerdict, Verdict};
 
 use super::{ConfigurationAnalysis, requests};
 use crate::error::StudyError;
+use crate::pulls::{PullTimes, PullWarning};
 
 impl ConfigurationAnalysis<'_> {
     /// Returns ranks with their proof, verdicts, groups, reasons and warnings as plain data: the
@@ -41,7 +42,7 @@ impl ConfigurationAnalysis<'_> {
         let (generic, generic_verdicts) = self.generic_with_verdicts().unzip();
         let mut document =
             AnalysisDocument::new(self.scene.name(), &self.analysis, generic.as_ref())
-                .with_freedoms(&self.freedoms()?, self.mechanism);
+                .with_freedoms(self.freedoms()?, self.mechanism);
         if let Some(verdicts) = generic_verdicts.flatten() {
             document.add_generic_verdicts(&verdicts);
         }
@@ -57,7 +58,7 @@ impl ConfigurationAnalysis<'_> {
                 }
                 Err(e) => document
                     .warnings
-                    .push(format!("sums have no numbers here: {e}")),
+                    .push(format!("the values of sums are not available: {e}")),
             }
         }
         if let Some(explanation) = self.explanation()? {
@@ -92,8 +93,12 @@ impl ConfigurationAnalysis<'_> {
             freedoms.cannot_move = Some(false);
         }
         document.warnings.extend(locked(&document));
+        let pulls = self.pulls();
+        let pulling = PullWarning::new(&pulls, PullTimes::Instant);
+        let pulling = pulling.map(|warning| warning.to_string());
+        document.warnings.extend(pulling);
         for found in self.no_finite_reactions()? {
-            document.add_no_finite(&found);
+            document.add_no_finite(found);
         }
         document.answers.eliminations = Some(EliminationsDocument::new(self.eliminations(), None));
         Ok(document)
@@ -135,8 +140,8 @@ fn only_here(d: &AnalysisDocument, configuration: &ConfigurationAnalysis<'_>) ->
         (true, true) => ", with drives, knife edges and other conditions on velocities left free",
     };
     let compared = match generic.points.len() {
-        1 => "the other configuration compared is a pose".to_owned(),
-        n => format!("the {n} other configurations compared are poses"),
+        1 => "the compared configuration is a pose".to_owned(),
+        n => format!("the {n} compared configurations are poses"),
     };
     Some(format!(
         "redundancy {} and its verdicts hold at this singular configuration only; {compared} that the joints allow{free}, and `--along` \

@@ -34,6 +34,7 @@ pub(crate) use reaction::components;
 pub use reaction::{FreeDirectionDocument, GroupDocument, ReactionDocument, RowDocument};
 
 use super::{ByName, FreedomsDocument, LoadsDocument, from_one};
+use crate::contacts;
 use crate::questions::analyze::{bounds, matrices, remedies};
 
 /// Ranks and verdicts of one configuration.
@@ -150,14 +151,14 @@ pub struct AnswersDocument {
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub make_unique: Vec<MakeUniqueDocument>,
     /// Joint types that make reactions unique without a change of motion; absent if there are none.
-    /// They are also computed without a request.
+    /// These joint types are also computed without a request.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub remedies: Vec<remedies::RemedyDocument>,
     /// Reactions for different choices.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub choices: Vec<DistributionDocument>,
     /// With choices: the loads of force elements on their first bodies (N, N·m), with lengths (m)
-    /// and angles (rad) and their rates. They do not depend on the choice.
+    /// and angles (rad) and their rates. The loads of force elements do not depend on the choice.
     #[serde(skip_serializing_if = "ByName::is_empty")]
     pub loads: LoadsDocument,
     /// Verdicts along the motion.
@@ -170,6 +171,9 @@ pub struct AnswersDocument {
     /// Assumptions and extent of the bounds, if they were requested.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub bounds: Option<bounds::BoundsDocument>,
+    /// What contacts do, if the scene has one-sided joints or grip.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub contacts: Option<contacts::ContactsDocument>,
     /// The matrices of the constraints.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub matrices: Option<matrices::MatricesDocument>,
@@ -292,9 +296,9 @@ impl AnalysisDocument {
         self
     }
 
-    /// Adds the verdicts that hold at nearly all configurations, one for each joint and drive. They
-    /// come from the stretches of the motion that contain the instant, or from other
-    /// configurations.
+    /// Adds the verdicts that hold at nearly all configurations, one for each joint and drive.
+    /// Generic verdicts come from the stretches of the motion that contain the instant, or from
+    /// other configurations.
     pub fn add_generic_verdicts(&mut self, generic: &[GenericVerdict]) {
         for (reaction, generic) in self.reactions.iter_mut().zip(generic) {
             reaction.add_generic(generic);

@@ -103,7 +103,7 @@ impl FreedomsDocument {
         }
     }
 
-    /// States that wheels prevent every motion, and what lets the vehicle move.
+    /// States that wheels prevent every motion, and lists changes that allow a motion.
     #[must_use]
     pub fn prevented(&self) -> Option<String> {
         let names = listed(&self.prevented_by);

@@ -45,7 +45,7 @@ impl MisfitDocument {
         let mut lines: Vec<String> = misfits.iter().take(TOLD).map(Self::to_string).collect();
         match misfits.len().saturating_sub(TOLD) {
             0 => {}
-            more => lines.push(format!("{more} more rows miss, see summary.json")),
+            more => lines.push(format!("{more} more rows are violated, see summary.json")),
         }
         lines
     }

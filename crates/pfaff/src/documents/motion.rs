@@ -74,7 +74,7 @@ fn state(of: &FrameState) -> ByName<f64> {
 }
 
 impl MomentDocument {
-    /// Leaves out numbers that are not determined on their stretch.
+    /// Omits numbers that are not determined on their stretch.
     fn leave_out_choices(&mut self, mechanism: &Mechanism, stretches: &Stretches) {
         let ids = mechanism.layout().constraint_ids();
         for (id, (_, numbers)) in ids.zip(&mut self.reactions.0) {

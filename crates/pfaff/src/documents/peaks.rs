@@ -27,7 +27,8 @@ pub(crate) struct LoadPeak {
 }
 
 impl LoadPeak {
-    /// Returns the peaks of all loads of a run. Its reactions and groups have these columns.
+    /// Returns the peaks of all loads of a run. The reactions and groups of the run have these
+    /// columns.
     pub(crate) fn all(run: &RunDocument, columns: &[ReactionColumn]) -> Vec<Self> {
         let mut all = Vec::new();
         let mut add = |name: &str, load: &str, unit, peak| {

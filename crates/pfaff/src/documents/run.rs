@@ -30,7 +30,7 @@ pub struct Run<'a> {
     pub reactions: &'a [ReactionVerdict],
     /// Sensitivities of the reactions to the data at the start.
     pub sensitivities: &'a Sensitivities,
-    /// Tolerances of the data, and what depends on them.
+    /// Tolerances of the data, and the results that depend on the tolerances.
     pub data: DataDocument,
     /// The possible motions at the start.
     pub freedoms: &'a Freedoms,
@@ -119,7 +119,7 @@ pub struct RunDocument {
     /// The possible motions at the start, with the drives and without them.
     #[serde(flatten)]
     pub freedoms: FreedomsDocument,
-    /// Tolerances of the data, and what depends on them at the start.
+    /// Tolerances of the data, and the results at the start that depend on the tolerances.
     pub data: DataDocument,
     /// Largest violations of rows that are redundant only within the stated tolerance.
     pub misfits: Vec<MisfitDocument>,
@@ -141,6 +141,10 @@ pub struct RunDocument {
     /// The assumptions of the bounds, if bounds were requested.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub bounds: Option<RunBoundsDocument>,
+    /// Contacts that pull although the scene does not describe them as one-sided, in the order of
+    /// time.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub pulls: Vec<PullDocument>,
     /// Instants at which a verdict differs from the verdict of its stretch of the run.
     pub special: Vec<SpecialDocument>,
     /// The choices that determine the numbers of `choice.csv` and of further files; empty if every
@@ -219,6 +223,20 @@ pub struct LoadOfRunDocument {
     pub components: ByName<RangeOfRunDocument>,
 }
 
+/// A contact that pulls.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct PullDocument {
+    /// Name of the joint.
+    pub joint: String,
+    /// The first time at which the joint pulls (s).
+    pub from: f64,
+    /// The largest force with which it pulls (N).
+    pub force: f64,
+    /// The time of this force (s).
+    pub time: f64,
+}
+
 /// The table of all loads on a body.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
@@ -229,7 +247,7 @@ pub struct BodyOfRunDocument {
     /// Whether the loads are those of the first choice, because the model does not determine them
     /// during the whole run.
     pub choice: bool,
-    /// Number of rows that the table leaves out, because a reaction is not determined there.
+    /// Number of rows that the table omits, because a reaction is not determined.
     pub rows_left_out: usize,
 }
 
@@ -324,7 +342,7 @@ impl RunDocument {
             (n, tables) => format!("{n} rows in {}", tables.join(" and ")),
         };
         format!(
-            "kept: {rows}, up to t = {} s; summary.json says that they are partial",
+            "kept: {rows}, up to t = {} s; summary.json marks the tables as partial",
             rounded(self.t_end)
         )
     }
@@ -400,6 +418,7 @@ impl RunDocument {
             loads: ByName(Vec::new()),
             bodies: ByName(Vec::new()),
             bounds: None,
+            pulls: Vec::new(),
             special: verdicts.map_or_else(Vec::new, |v| {
                 SpecialDocument::all(v.stretches, v.groups, mechanism.layout())
             }),

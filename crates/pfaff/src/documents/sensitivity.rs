@@ -15,7 +15,7 @@ pub struct SensitivityDocument {
     /// three digits. The value for a reaction is the largest value of its unique components. `null`
     /// if no number is unique, or if not requested.
     pub sensitivity: Option<f64>,
-    /// Whether the change is above 10 %.
+    /// Whether the sensitivity is above 10 %.
     pub fragile: bool,
     /// The datum that changes the number most, as text; absent if the number is not ill-determined.
     #[serde(skip_serializing_if = "Option::is_none")]

@@ -32,6 +32,9 @@ pub struct ToleranceDocument {
     pub ranks: Vec<RankCountDocument>,
     /// Samples whose rank is undecided with exact numbers.
     pub undecided: u64,
+    /// Samples in which one-sided joints open, if the scene has one-sided joints.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub openings: Option<OpeningsDocument>,
     /// Violations, in the samples, of rows that are redundant as described, the largest first.
     /// Angles are multiplied by their lever arm, the size of the mechanism.
     pub misfits: Vec<RowMisfitDocument>,
@@ -89,7 +92,7 @@ pub struct FailureDocument {
     pub reason: String,
     /// Number of these samples.
     pub samples: u64,
-    /// The first of these samples, counted from 1.
+    /// Number of the first such sample, counted from 1.
     pub first: u64,
     /// Further details of the first sample.
     pub detail: String,
@@ -125,6 +128,18 @@ pub struct RankCountDocument {
     pub mobility: usize,
     /// Number of samples.
     pub samples: u64,
+}
+
+/// Samples in which one-sided joints cannot all stay closed, with the described redundancy.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct OpeningsDocument {
+    /// Number of these samples.
+    pub samples: u64,
+    /// The first of these samples, counted from 1.
+    pub first: Option<u64>,
+    /// The joints that open, with their numbers of samples.
+    pub joints: ByName<u64>,
 }
 
 /// Violation of a row in the samples.
@@ -285,7 +300,7 @@ impl ToleranceDocument {
                     "point, direction or number",
                     "points, directions and numbers",
                 );
-                format!("{samples} of {data}, {distribution} within {within}{angles}")
+                format!("{samples} of {data}, with {distribution} errors within {within}{angles}")
             }
         };
         let mut all = vec![format!(
@@ -318,6 +333,11 @@ impl ToleranceDocument {
         all.push(self.reading());
         all.extend(self.exact());
         all.extend(self.fit());
+        all.extend(
+            self.openings
+                .as_ref()
+                .map(|own| own.sentence(self.assembled)),
+        );
         all
     }
 
@@ -381,10 +401,11 @@ impl ToleranceDocument {
                     lost => format!("{lost} free motions are"),
                 };
                 format!(
-                    "rows that are redundant as described are independent there; without play or slip {free} lost"
+                    "rows that are redundant in the described scene are independent in these samples; without play or slip {free} lost"
                 )
             } else {
-                "rows are redundant there that are independent as described".to_owned()
+                "rows that are independent in the described scene are redundant in these samples"
+                    .to_owned()
             };
             all.push(format!(
                 "the rank without tolerance is {} (redundancy {}, mobility {}) in {} of {} samples: {meaning}",
@@ -423,6 +444,27 @@ impl ToleranceDocument {
             told(worst.greatest),
             told(worst.mean)
         ))
+    }
+}
+
+impl OpeningsDocument {
+    /// Describes the samples in which contacts open.
+    fn sentence(&self, assembled: u64) -> String {
+        let Some(first) = self.first else {
+            return "the one-sided joints can all stay closed in all samples".to_owned();
+        };
+        let joints = self.joints.0.iter();
+        let joints = joints.map(|(name, samples)| format!("`{name}` in {samples}"));
+        let joints = model::words::listed(&joints.collect::<Vec<_>>());
+        let in_them = match self.samples {
+            1 => "this sample",
+            _ => "these samples",
+        };
+        format!(
+            "one-sided joints open in {} of {assembled} samples ({joints}; the first is sample {first}): the reactions of {in_them} are \
+             those of joints that also pull",
+            self.samples
+        )
     }
 }
 

@@ -2,6 +2,7 @@
 //! accurate its data and its motion are. Every page of a run has this section.
 
 use model::words::{estimate, listed, rounded, short};
+use model::{ContactLimits, System};
 
 use super::run_page::RunPage;
 use super::verdicts;
@@ -32,8 +33,9 @@ fn sentences(page: &RunPage<'_>, run: &RunDocument) -> Vec<String> {
         gravity(page),
     ];
     all.extend(drives(page));
+    all.extend(contacts(page));
     all.push(
-        "The model leaves out deformation, wear, the strength of parts, and contact between bodies unless a joint describes it. \
+        "The model omits deformation, wear, the strength of parts, and contact between bodies unless a joint describes it. \
          It does not contain the shapes of bodies."
             .to_owned(),
     );
@@ -74,6 +76,33 @@ fn forces(page: &RunPage<'_>) -> String {
             listed(names)
         ),
     }
+}
+
+/// Names the one-sided joints and the contacts that grip.
+fn contacts(page: &RunPage<'_>) -> Vec<String> {
+    let groups = page.mechanism.layout().groups.iter();
+    let named = |is: fn(&ContactLimits) -> bool| -> Vec<String> {
+        let own = groups.clone().filter(|group| is(&group.limits));
+        own.map(|group| format!("`{}`", group.name)).collect()
+    };
+    let (sided, gripping) = (
+        named(|limits| limits.open_side.is_some()),
+        named(|limits| limits.grip.is_some()),
+    );
+    let mut all = Vec::new();
+    if !sided.is_empty() {
+        all.push(format!(
+            "One-sided joints act in one direction only and can open: {}. The run ends when they cannot all stay closed.",
+            listed(&sided)
+        ));
+    }
+    if !gripping.is_empty() {
+        all.push(format!(
+            "Contacts with a coefficient of friction do not slip in the computed motion: {}. Whether they can hold is analysed at the start.",
+            listed(&gripping)
+        ));
+    }
+    all
 }
 
 fn gravity(page: &RunPage<'_>) -> String {
@@ -178,7 +207,7 @@ fn choice(page: &RunPage<'_>, run: &RunDocument) -> Vec<String> {
                 format!(" ({noun} {rows})")
             });
             all.push(format!(
-                "The motion is computed without the redundant constraint rows{rows}. It does not depend on this choice of rows."
+                "The motion is computed without the redundant constraint rows{rows}. The motion does not depend on this choice of rows."
             ));
         }
     }

@@ -62,7 +62,7 @@ struct Joint<'a> {
     /// Names, units and verdicts of the components that are not identically zero.
     components: Vec<Component>,
     explanation: Option<&'a str>,
-    /// The choice on which its numbers depend if they are not unique.
+    /// The choice on which the numbers of a reaction depend if they are not unique.
     choice: Option<String>,
     /// Components of the reaction, and the named component; `None` if reactions were not requested.
     reaction: Option<Reaction>,

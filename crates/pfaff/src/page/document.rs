@@ -2,7 +2,7 @@
 //! are escaped at insertion.
 
 use model::SpaceKind;
-use model::words::listed;
+use model::words::{listed, rounded};
 
 use super::cast::Cast;
 use super::curves::{Curves, GROUPS, PLOTS, PRINTED};
@@ -162,8 +162,8 @@ fn head(out: &mut String, page: &RunPage<'_>) {
             out,
             format_args!(
                 "<p class=\"warning\"><b>Partial:</b> the run ended at t = {} s. {}. The page shows the motion up to this time.</p>\n",
-                run.t_end,
-                safe(&sentence(why))
+                rounded(run.t_end),
+                verdicts::marked(&sentence(why))
             ),
         );
     }
@@ -319,6 +319,11 @@ fn answer(page: &RunPage<'_>) -> String {
         );
     }
     combined(&mut text, page);
+    let contacts = page.analysis.and_then(|a| a.answers.contacts.as_ref());
+    if let Some(tips) = contacts.and_then(|contacts| contacts.tips.as_ref()) {
+        let tips = verdicts::marked(&sentence(tips));
+        add(&mut text, format_args!("<b>{tips}.</b> "));
+    }
     // The text is shorter if no verdict is undecided.
     if doubt.is_empty() {
         text = text.replace(
@@ -341,7 +346,9 @@ fn combined(text: &mut String, page: &RunPage<'_>) {
     ] {
         let of_it = run.groups.0.iter();
         let of_it = of_it.filter(|(_, group)| group.of_run.verdict == word);
-        let names: Vec<&str> = of_it.map(|(name, _)| name.as_str()).collect();
+        // The name of a group may have several words.
+        let names: Vec<String> = of_it.map(|(name, _)| format!("“{name}”")).collect();
+        let names: Vec<&str> = names.iter().map(String::as_str).collect();
         let (reactions, are) = match names.len() {
             0 => continue,
             1 => ("reaction", "is"),
@@ -411,7 +418,7 @@ fn tiles(out: &mut String, page: &RunPage<'_>) {
         n => tiles.push((n.to_string(), "reactions with fragile components")),
     }
     if let Some(run) = page.run() {
-        tiles.push((format!("{} s", run.t_end), "simulated time"));
+        tiles.push((format!("{} s", rounded(run.t_end)), "simulated time"));
         tiles.push((
             short(run.max_position_residual),
             "largest constraint violation |Φ|",

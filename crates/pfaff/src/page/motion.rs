@@ -25,10 +25,10 @@ const VIEWS: &str = "<div class=\"views\" role=\"group\" aria-label=\"View\">\
 /// Description of the keys of a picture in space, for readers who cannot see it.
 const SPATIAL_KEYS: &str = ". Arrow keys rotate the view. Shift with an arrow key moves the view. Plus and minus zoom. The keys x, y, z and i select standard views. The key p switches the perspective on or off";
 
-/// Controls that only the page of a run has.
+/// Controls that only the page of a run has; `$bodies` stands for the title of the list of bodies.
 const OF_RUN: &str = "<fieldset class=\"option\"><legend>Arrows</legend><input id=\"arrows\" type=\"range\" min=\"-2\" max=\"2\" \
 step=\"0.1\" value=\"0\" aria-label=\"Length of arrows\"></fieldset>\n\
-<fieldset class=\"option\"><legend>Trace and plot</legend><div id=\"bodies\"></div></fieldset>\n";
+<fieldset class=\"option\"><legend>$bodies</legend><div id=\"bodies\"></div></fieldset>\n";
 
 /// Controls that save the picture as shown.
 const SAVE: &str = "<fieldset class=\"option save\"><legend>Save picture</legend>\
@@ -85,7 +85,13 @@ pub(super) fn section(out: &mut String, page: &RunPage<'_>, data: &Data<'_>) {
     );
     out.push_str(SAVE);
     if page.run().is_some() {
-        out.push_str(OF_RUN);
+        // The report for a customer has no curves of bodies.
+        let bodies = if page.is_for_customer() {
+            "Traces"
+        } else {
+            "Traces and curves"
+        };
+        out.push_str(&OF_RUN.replace("$bodies", bodies));
     }
     out.push_str("</aside>\n</div>\n");
     if !page.is_for_customer() {

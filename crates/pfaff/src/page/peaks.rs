@@ -1,6 +1,6 @@
 //! The largest force and the largest moment of each reaction over the run, with their times, as a
-//! table. A number that the model does not determine has no peak of its own: it is shown with the
-//! bound of joints of any stiffness, or it is left out.
+//! table. A number that the model does not determine has no peak: it is shown with the bound for
+//! joints of any stiffness, or it is omitted.
 
 use model::words::short;
 use model::{Mechanism, System};

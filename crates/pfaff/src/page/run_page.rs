@@ -126,7 +126,7 @@ impl RunPage<'_> {
         }
     }
 
-    /// Whether the page is a short report for print. Only a run has such a page.
+    /// Whether the page is a short report for print. Only runs have a page of this style.
     pub(super) fn is_for_customer(&self) -> bool {
         self.run().is_some() && self.scene.print == PrintStyle::Customer
     }

@@ -2,6 +2,7 @@
 //! would make reactions unique. The text is static, so that it is available without scripts and in
 //! print.
 
+use super::contacts;
 use super::run_page::RunPage;
 use crate::documents::{MakeUniqueDocument, ReactionDocument, RunReactionDocument};
 use crate::words::grouped;
@@ -40,6 +41,7 @@ pub(super) fn section(out: &mut String, page: &RunPage<'_>) {
                     ),
                 );
             }
+            contacts::section(out, page);
             why(out, page);
         }
         None => out.push_str("<p>The file summary.json contains the verdicts.</p>\n"),

@@ -5,6 +5,7 @@ mod addition;
 mod additions;
 mod along;
 pub mod bounds;
+mod contacts;
 mod counts;
 mod data;
 mod deletions;
@@ -15,30 +16,27 @@ mod numbers;
 mod options;
 mod phrases;
 mod rank;
+mod refused;
 pub mod remedies;
 mod words;
 
-use std::ops::ControlFlow;
-
-use dynamics::{MotionOptions, OutputRequest};
 use model::System;
 use serde::Serialize;
-use solvability::Elasticity;
 
 pub use options::{Along, Analyze, Permission};
 
 use crate::along_motion::{self, VerdictsAlongMotion};
 use crate::documents::AnalysisDocument;
 use crate::error::StudyError;
-use crate::question::{
-    Answer, Control, Ending, INTERRUPTED, NOTHING_WRITTEN, Output, Place, Progress, Question,
-    Writing,
-};
+use crate::question::{Answer, Control, Ending, Output, Place, Progress, Question, Writing};
 use crate::refusal::{Refusal, json};
 use crate::run_options::RunOptions;
 use crate::start::{JudgedStart, Start};
-use crate::study::{EndedRun, Study};
+use crate::study::Study;
 use crate::words::Block;
+use addition::AnalysedMotion;
+use additions::ADDITIONS;
+use refused::refused;
 use report::Family;
 
 /// File name of the document.
@@ -127,12 +125,16 @@ impl Analyze {
         }
         if let Some(found) = along.transpose()? {
             found.add_to(&mut document, configuration.mechanism.layout());
-            if let (Some(elasticity), Some(along)) = (
-                bounds::elasticity(self, &configuration)?,
-                &mut document.answers.along,
-            ) {
-                let run = bounded(of, study, (along.to, &elasticity), control)?;
-                along::add_bounds(along, &run.document);
+            if let Some(along) = &mut document.answers.along {
+                let motion = AnalysedMotion {
+                    of,
+                    study,
+                    configuration: &configuration,
+                    control,
+                };
+                for addition in ADDITIONS {
+                    addition.add_along(self, &motion, along)?;
+                }
             }
         }
         let hints = document::hints(&configuration, &document, control)?;
@@ -169,43 +171,6 @@ fn judge(
     found.map_err(|e| refused(of, e))
 }
 
-/// Runs the motion with bounds of the reactions.
-fn bounded(
-    of: &Start<'_>,
-    study: &Study,
-    (t_end, elasticity): (f64, &Elasticity),
-    control: &Control<'_>,
-) -> Result<EndedRun, Refusal> {
-    let options = MotionOptions {
-        t_end,
-        ..study
-            .options
-            .clone()
-            .unwrap_or_else(|| MotionOptions::to(t_end))
-    };
-    let wanted = OutputRequest::default();
-    let run = study.show_bounded(
-        &options,
-        &wanted,
-        Some(elasticity),
-        &control.stop,
-        |s, _| {
-            (control.progress)(Progress::Motion("bounding", s.t, t_end));
-            ControlFlow::Continue(())
-        },
-    );
-    run.map_err(|e| refused(of, e))
-}
-
-/// Returns the reason why there is no analysis; no output is written before the analysis is
-/// complete.
-fn refused(of: &Start<'_>, error: StudyError) -> Refusal {
-    match error {
-        StudyError::Interrupted => Refusal::stopped(NOTHING_WRITTEN.to_owned()).coded(INTERRUPTED),
-        error => of.refusal(error),
-    }
-}
-
 /// An analysed configuration.
 #[derive(Clone, Debug, Serialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
@@ -225,7 +190,7 @@ impl Answer for AnalyzeAnswer {
     }
 
     fn files(&self, place: &mut dyn Place) -> Result<(), Refusal> {
-        for addition in additions::ADDITIONS {
+        for addition in ADDITIONS {
             for (name, text) in addition.files(&self.document)? {
                 place.put(name, &text)?;
             }

@@ -64,7 +64,7 @@ impl Question for Cases {
         };
         if let Some(case) = &of.case {
             return Err(Refusal::input(format!(
-                "`cases` simulates all load cases: leave out `--case {case}`, or simulate this case alone with `simulate --case`"
+                "`cases` simulates all load cases: omit `--case {case}`, or simulate this case alone with `simulate --case`"
             )));
         }
         let assembled = of.assembled(control)?;
@@ -130,7 +130,7 @@ impl Cases {
 }
 
 fn cut(directory: &OutputDirectory, begun: Option<&str>) -> String {
-    let kept = "the directories of the cases that have begun in `{}`";
+    let kept = "the directories of the started cases in `{}`";
     cut_tables(directory, begun, FAMILY, kept)
 }
 
@@ -160,7 +160,7 @@ impl Answer for CasesAnswer {
         Ending::Partial {
             code: NOT_DONE,
             error: format!(
-                "{failed} of {} load cases are not done; `{}` {}: {error}",
+                "{failed} of {} load cases failed; `{}` {}: {error}",
                 self.cases.len(),
                 first.name,
                 first.status

@@ -12,6 +12,7 @@ use crate::configuration::{ConfigurationAnalysis, requests};
 use crate::elasticity::elasticity;
 use crate::error::StudyError;
 use crate::plots;
+use crate::pulls::{PullTimes, PullWarning};
 use crate::question::{Control, Question};
 use crate::refusal::Refusal;
 use crate::start::{JudgedStart, Start};
@@ -47,7 +48,7 @@ impl Question for Check {
                 let start = of.configuration(&judged, 0.0, control, |_| ())?;
                 let prepared = &study.prepared;
                 let answer = CheckAnswer::new(judged.parts(), &prepared.assembly.correction);
-                let mut answer = answer.moving(&start.freedoms()?, &prepared.mechanism);
+                let mut answer = answer.moving(start.freedoms()?, &prepared.mechanism);
                 answer.start_velocity_correction =
                     Some(answer::largest(&prepared.velocity_correction));
                 let hanging = fragile(&start)?;
@@ -62,6 +63,10 @@ impl Question for Check {
                         "more reactions are unique but fragile: `pfaff analyze` names all"
                             .to_owned(),
                     );
+                }
+                let pulls = start.pulls();
+                if let Some(warning) = PullWarning::new(&pulls, PullTimes::Instant) {
+                    answer = answer.warned(warning.located(scene), &warning);
                 }
                 Ok(answer)
             }),

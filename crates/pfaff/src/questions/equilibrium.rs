@@ -61,9 +61,11 @@ impl Question for Equilibrium {
             let text = text.map_err(|e| Refusal::input(e.to_string()).coded(e.code()))?;
             // The written scene must start at the configuration that it contains.
             Study::read(SCENE, &text, of.registry, &RunOptions::default()).map_err(|e| {
-                Refusal::stopped(format!("the scene that starts at rest cannot be read: {e}"))
+                Refusal::stopped(format!(
+                    "the scene that starts at the equilibrium cannot be read: {e}"
+                ))
             })?;
-            let head = "equilibrium: `start` says where bodies start, at rest";
+            let head = "equilibrium: `start` contains the positions of the bodies at rest";
             answer.text_at_rest = format!("{PROVENANCE} {head}\n{text}");
             answer.file = Some(SCENE);
         }

@@ -129,12 +129,12 @@ fn print_style<'d, D: Deserializer<'d>>(reader: D) -> Result<Option<PrintStyle>,
 }
 
 fn cut(directory: &OutputDirectory, begun: Option<&str>) -> String {
-    let kept = format!("whole rows of the tables in `{{}}`; {SUMMARY} says that they are partial");
+    let kept = format!("whole rows of the tables in `{{}}`; {SUMMARY} marks them as partial");
     cut_tables(directory, begun, FAMILY, &kept)
 }
 
 /// Gives the tables of complete rows their final names and writes a summary that states that they
-/// are partial. `kept` describes what is kept in the directory `{}`.
+/// are partial. `kept` describes the files that remain in the directory `{}`.
 pub(super) fn cut_tables(
     directory: &OutputDirectory,
     begun: Option<&str>,

@@ -9,7 +9,7 @@ use std::sync::PoisonError;
 
 use model::codes::Code;
 use report::sweep::{FAMILY, Records};
-use report::{OutputDirectory, SweepDocument, SweepStatus};
+use report::{OutputDirectory, SweepDocument};
 use serde::{Deserialize, Serialize};
 
 use crate::question::{Answer, Control, Ending, Output, Progress, Question, Writing};
@@ -151,7 +151,7 @@ impl Sweep {
                 SweepProgress::Begin { runs, finished } => (*done, *all) = (finished, runs),
                 SweepProgress::Finished(row) => {
                     *done += 1;
-                    *failed += u64::from(row.status != SweepStatus::Done);
+                    *failed += u64::from(row.status.is_failure());
                 }
             }
             let note = match failed {
@@ -245,14 +245,14 @@ impl Answer for SweepAnswer {
                 "interrupted; {made}: the same command resumes the sweep"
             )),
             SweepEnd::Missing { .. } => failed(made),
-            SweepEnd::Whole(_) if d.done == d.finished => Ending::Complete,
+            SweepEnd::Whole(_) if d.done + d.opened == d.finished => Ending::Complete,
             SweepEnd::Whole(_) => {
                 let first = d.failures.first();
                 let first = first.map_or_else(String::new, |first| {
                     format!("; run {} {}: {}", first.run, first.status, first.error)
                 });
-                let (failures, all) = (d.finished - d.done, d.finished);
-                failed(format!("{failures} of {all} runs are not done{first}"))
+                let (failures, all) = (d.finished - d.done - d.opened, d.finished);
+                failed(format!("{failures} of {all} runs failed{first}"))
             }
         }
     }
@@ -263,7 +263,7 @@ impl Answer for SweepAnswer {
                 format!("kept in {place}; the shard that ends last writes the tables")
             }
             (Some(_), SweepEnd::Whole(Tables::Written)) => {
-                format!("all runs are there: tables written to {place}")
+                format!("all runs are done: tables written to {place}")
             }
             (Some(_), _) => format!("kept in {place}"),
             (None, _) => format!("written to {place}"),

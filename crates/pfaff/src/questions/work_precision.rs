@@ -104,8 +104,9 @@ impl WorkPrecision {
                     scenes.push(compared.scene);
                     if compared.interrupted {
                         let (made, all) = (k + 1, subjects.len());
-                        ending =
-                            Ending::interrupted(format!("interrupted in scene {made} of {all}"));
+                        ending = Ending::interrupted(format!(
+                            "interrupted during scene {made} of {all}"
+                        ));
                         break;
                     }
                 }

@@ -66,8 +66,7 @@ pub(super) fn render(name: &str, text: &str, diagnostics: &[Diagnostic], color: 
     rendered
 }
 
-/// Removes colour codes from a text: the library colours kinds with a code of their own in any
-/// case.
+/// Removes colour codes from a text, because the library always colours some kinds of text.
 fn uncoloured(text: &str) -> String {
     let mut pieces = text.split('\u{1b}');
     let first = pieces.next().unwrap_or_default().to_owned();

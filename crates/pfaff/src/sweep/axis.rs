@@ -67,7 +67,7 @@ pub enum AxisError {
     },
     /// A range has fewer than two values, or too many.
     #[error(
-        "`{text}`: `{count}` is not a number of values from 2 to {RUNS_MAX}; a single value is `KEY=VALUE`"
+        "`{text}`: `{count}` is not a valid number of values from 2 to {RUNS_MAX}; a single value is `KEY=VALUE`"
     )]
     Count {
         /// The text.
@@ -84,7 +84,7 @@ pub enum AxisError {
     /// There is no axis.
     #[error("nothing is varied")]
     Nothing,
-    /// There are too many combinations.
+    /// The grid has too many combinations.
     #[error("the grid has more than {RUNS_MAX} combinations")]
     TooLarge,
 }
@@ -383,10 +383,10 @@ mod tests {
             ("k=1,,2", "`` is not a finite number"),
             ("k=nan", "`nan` is not a finite number"),
             ("k=0:inf:3", "`inf` is not a finite number"),
-            ("k=0:1:1", "`1` is not a number of values"),
-            ("k=0:1:-3", "`-3` is not a number of values"),
-            ("k=0:1:1e3", "`1e3` is not a number of values"),
-            ("k=0:1:99999999", "is not a number of values"),
+            ("k=0:1:1", "`1` is not a valid number of values"),
+            ("k=0:1:-3", "`-3` is not a valid number of values"),
+            ("k=0:1:1e3", "`1e3` is not a valid number of values"),
+            ("k=0:1:99999999", "is not a valid number of values"),
             ("k=0:1:3:log", "neither of them 0"),
             ("k=1:0:3:log", "neither of them 0"),
             ("k=-1:-0.0:3:log", "neither of them 0"),

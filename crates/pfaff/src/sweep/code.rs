@@ -33,9 +33,9 @@ impl SweepCode {
         (keys, runs): (&[String], u64),
     ) -> Result<Self, String> {
         if runs < FEW {
-            return Err(format!("code is made for {FEW} runs and more"));
+            return Err(format!("code is generated for at least {FEW} runs"));
         }
-        let described = described.ok_or("the scene has no start without its changes")?;
+        let described = described.ok_or("the scene without changed values cannot be assembled")?;
         // A setting that is not a number of the equations, such as a tolerance, needs no input.
         let is_of_run = |key: &&String| key.starts_with("simulate.");
         let mut keys: Vec<String> = keys.iter().filter(|key| !is_of_run(key)).cloned().collect();
@@ -64,7 +64,7 @@ impl SweepCode {
             n => format!("{n} numbers"),
         };
         format!(
-            "on generated code, {LANES} runs at once; it takes {inputs} of each run ({})",
+            "generated code, {LANES} runs at the same time; its inputs are {inputs} of each run ({})",
             self.tape.spec().operations
         )
     }

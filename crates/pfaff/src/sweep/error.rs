@@ -19,11 +19,11 @@ pub enum SweepError {
     /// A key does not refer to a number of the scene.
     #[error(transparent)]
     Key(#[from] KeyError),
-    /// There are no values, or too many.
+    /// The range has no values, or too many values.
     #[error(transparent)]
     Axis(#[from] AxisError),
     /// No run can begin.
-    #[error("none of the {runs} runs can begin; the first, with {values}: {reason}")]
+    #[error("all {runs} runs fail at the start; the first, with {values}: {reason}")]
     NoneBegins {
         /// Number of runs.
         runs: u64,

@@ -27,7 +27,7 @@ const STACK: usize = 2 << 20;
 /// Result of a run: `None` if it was interrupted.
 type Outcome = Result<Option<MadeRun>, SweepError>;
 
-/// The function for which a run waits.
+/// The function that a waiting run needs next.
 struct Wait {
     function: CodeFunction,
     call: Box<TapeCall>,

@@ -1,7 +1,7 @@
 //! Simulates one run of a sweep, with the values of the varied keys for this run, and records the
 //! results.
 
-use std::ops::{ControlFlow, Range};
+use std::ops::ControlFlow;
 use std::sync::Arc;
 
 use dynamics::plan::{Reactions, Rows, Verdicts};
@@ -9,15 +9,17 @@ use dynamics::{
     Event, EventKind, MotionFault, MotionOptions, OutputRequest, Plan, PreparedMechanism, Sample,
     SceneCode, Stop, Summary,
 };
-use model::space::norm;
-use model::{ConstraintId, Mechanism, Reaction, System};
-use report::sweep::{Extreme, SweepMotion};
+use model::{ConstraintId, Mechanism, System};
+use report::Peak;
+use report::sweep::SweepMotion;
 use scene_codegen::Tape;
 use solvability::analysis::analyse_decided;
-use solvability::{Analysis, ReactionStretches, Stretches, Value, Verdict};
+use solvability::{Analysis, ReactionStretches, Stretches};
 
 use crate::bounds_of_run::{BoundsOfRun, FoundBounds};
+use crate::documents::ExtremeDocument;
 use crate::error::StudyError;
+use crate::peaks_of_run::{MagnitudePeak, MagnitudesOfRun};
 use crate::study::Study;
 
 /// A run that can begin: assembled, and analysed at its start.
@@ -100,7 +102,7 @@ impl PreparedRun {
     ) -> MadeRun {
         let mut watch = Watch::new(self);
         // Without redundant rows all reactions are unique.
-        let is_redundant = self.analysis.decision.redundancy > 0 && !watch.reactions.is_empty();
+        let is_redundant = self.analysis.decision.redundancy > 0 && !self.reactions.is_empty();
         let elastic = self.study.bounds.as_ref().filter(|_| is_redundant);
         let wanted = OutputRequest {
             rows: Rows::Every,
@@ -125,8 +127,7 @@ impl PreparedRun {
             let Study {
                 scene, prepared, ..
             } = &self.study;
-            let known = watch.reactions.iter().flatten();
-            let known: Vec<ConstraintId> = known.copied().map(ConstraintId).collect();
+            let known = watch.magnitudes.reactions().to_vec();
             bounds = elastic.map(|elastic| {
                 BoundsOfRun::of_magnitudes((scene, &prepared.mechanism), elastic, known, &plan)
             });
@@ -168,42 +169,19 @@ struct Watch<'s> {
     t_state: f64,
     /// The last coordinates and velocities; `None` before the first row.
     last: Option<(Vec<f64>, Vec<f64>)>,
-    /// The requested reactions; `None` for one that this run does not have.
-    reactions: &'s [Option<usize>],
-    /// Largest force and torque of each reaction.
-    largest: Vec<[Largest; 2]>,
-}
-
-/// The largest number, and the first time at which it occurs (s); NaN if there is no number.
-#[derive(Clone, Copy, Debug, PartialEq)]
-struct Largest {
-    number: f64,
-    time: f64,
-}
-
-impl Largest {
-    const NONE: Self = Self {
-        number: f64::NAN,
-        time: f64::NAN,
-    };
-
-    /// Includes a number at a time; NaN is ignored.
-    fn include(&mut self, time: f64, number: f64) {
-        // A comparison with NaN is false, so the first number is always taken.
-        if number > self.number || self.number.is_nan() && !number.is_nan() {
-            *self = Self { number, time };
-        }
-    }
+    /// Force and torque of the requested reactions that this run has.
+    magnitudes: MagnitudesOfRun,
 }
 
 impl<'s> Watch<'s> {
     fn new(begun: &'s PreparedRun) -> Self {
+        let known = begun.reactions.iter().flatten().copied();
+        let known = known.map(ConstraintId).collect();
         Self {
             begun,
             t_state: f64::NAN,
             last: None,
-            reactions: &begun.reactions,
-            largest: vec![[Largest::NONE; 2]; begun.reactions.len()],
+            magnitudes: MagnitudesOfRun::new(&begun.study.prepared.mechanism, known),
         }
     }
 
@@ -214,8 +192,8 @@ impl<'s> Watch<'s> {
     /// Returns the names of the joints and drives whose reactions are recorded.
     fn names(&self) -> Vec<String> {
         let groups = &self.mechanism().layout().groups;
-        let known = self.reactions.iter().flatten();
-        known.map(|k| groups[*k].name.clone()).collect()
+        let known = self.magnitudes.reactions().iter();
+        known.map(|id| groups[id.0].name.clone()).collect()
     }
 
     fn see(&mut self, sample: &mut Sample<'_, '_>) -> Result<(), MotionFault> {
@@ -227,18 +205,11 @@ impl<'s> Watch<'s> {
             }
             last => *last = Some((sample.q.to_vec(), sample.v.to_vec())),
         }
-        if self.reactions.iter().flatten().next().is_none() {
-            return Ok(());
-        }
-        let all = sample.reactions()?;
-        let all = all.as_chosen();
-        for (k, [force, torque]) in self.reactions.iter().zip(&mut self.largest) {
-            // Reactions that are not determined on the run are left out.
-            let known = |r: &&Reaction| r.force.iter().chain(&r.torque).all(|x| !x.is_nan());
-            if let Some(reaction) = k.and_then(|k| all.get(k)).filter(known) {
-                force.include(sample.t, norm(&reaction.force));
-                torque.include(sample.t, norm(&reaction.torque));
-            }
+        if !self.magnitudes.reactions().is_empty() {
+            let cuts = sample.events.iter().filter(|event| event.kind.cuts());
+            cuts.for_each(|event| self.magnitudes.cut(event.time));
+            let all = sample.reactions()?;
+            self.magnitudes.row(sample.t, all.as_chosen());
         }
         Ok(())
     }
@@ -257,26 +228,16 @@ impl<'s> Watch<'s> {
         }
     }
 
-    /// Returns the extremes with their verdicts on the whole run.
-    fn extremes(&self, verdicts: Option<&Stretches>) -> Vec<Option<[Extreme; 2]>> {
-        let space = self.mechanism().space();
-        let of = |place: Option<usize>, [force, torque]: [Largest; 2]| {
-            let found = verdicts?.reactions.get(place?)?;
-            let extreme = |components: Range<usize>, Largest { number, time }| {
-                let names = space.components()[components].iter();
-                let tracks = names.filter_map(|name| found.component(name));
-                let verdicts = tracks.map(|track| track.of_run().clone());
-                let verdict = verdicts.fold(Verdict::Unique, Verdict::worse);
-                Extreme {
-                    value: Value::new(number, verdict, None),
-                    time,
-                }
-            };
-            let force = extreme(space.forces(), force);
-            Some([force, extreme(space.torques(), torque)])
-        };
-        let each = self.reactions.iter().zip(&self.largest);
-        each.map(|(place, largest)| of(*place, *largest)).collect()
+    /// Returns the peaks of the magnitudes that are determined on the whole run.
+    fn peaks(&self, verdicts: Option<&Stretches>) -> Vec<[Option<Peak>; 2]> {
+        let found = verdicts.map_or_else(Vec::new, |verdicts| self.magnitudes.finish(verdicts));
+        let mut found = found.into_iter();
+        let requested = self.begun.reactions.iter();
+        let known = requested.map(|place| place.and_then(|_| found.next()));
+        let of_run = |(_, peaks): (_, [MagnitudePeak; 2])| peaks.map(MagnitudePeak::of_run);
+        known
+            .map(|known| known.map_or([None, None], of_run))
+            .collect()
     }
 
     /// Returns the bounds of the reactions that are not unique on the whole run.
@@ -285,14 +246,17 @@ impl<'s> Watch<'s> {
         verdicts: Option<&Stretches>,
         found: Option<&FoundBounds>,
     ) -> report::sweep::BoundsOfRun {
+        let both = verdicts.zip(found).into_iter();
+        let open: Vec<_> = both
+            .flat_map(|(verdicts, found)| found.open(verdicts))
+            .collect();
+        let numbers = |most: Option<ExtremeDocument>| most.map(|most| [most.value, most.time]);
         let of = |place: &Option<usize>| {
             let id = ConstraintId((*place)?);
-            let is_unique = verdicts?.reactions.get(id.0)?.whole.of_run().is_unique();
-            let mut all = found?.magnitudes.iter();
-            let (_, largest) = all.find(|(known, _)| *known == id && !is_unique)?;
-            Some(largest.map(|most| most.map_or([f64::NAN; 2], |most| [most.value, most.time])))
+            let (_, largest) = open.iter().find(|(known, _)| *known == id)?;
+            Some(largest.map(|most| numbers(most).unwrap_or([f64::NAN; 2])))
         };
-        let largest = self.reactions.iter();
+        let largest = self.begun.reactions.iter();
         let largest = largest.map(|place| of(place).unwrap_or([[f64::NAN; 2]; 2]));
         let gap = found.and_then(|found| found.gap.as_ref());
         report::sweep::BoundsOfRun {
@@ -332,28 +296,8 @@ impl<'s> Watch<'s> {
             fragile: *fragile,
             t_state: self.t_state,
             state: self.state(),
-            extremes: self.extremes(verdicts),
+            peaks: self.peaks(verdicts),
             at_most: study.bounds.as_ref().map(|_| self.at_most(verdicts, found)),
         }
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn the_largest_is_the_first_of_equals() {
-        let mut largest = Largest::NONE;
-        for (t, number) in [(0.0, f64::NAN), (1.0, 0.0), (2.0, 3.0), (3.0, 3.0)] {
-            largest.include(t, number);
-        }
-        let first = Largest {
-            number: 3.0,
-            time: 2.0,
-        };
-        assert_eq!(largest, first);
-        largest.include(4.0, f64::NAN);
-        assert_eq!(largest, first);
     }
 }

@@ -54,12 +54,6 @@ impl Drop for Folder {
     }
 }
 
-/// Returns cells of the force and of the torque of a joint.
-fn extremes(motion: &SweepMotion, joint: usize) -> [[f64; 2]; 2] {
-    let of = motion.extremes[joint].as_ref().expect("it has reactions");
-    of.each_ref().map(report::sweep::Extreme::cells)
-}
-
 fn sweep<'r>(registry: &'r Registry, scene: &str, vary: &[&str]) -> Sweep<'r> {
     let axes = vary.iter().map(|axis| axis.parse().expect("an axis"));
     Sweep::read("scene.toml", scene, registry, axes.collect()).unwrap_or_else(|e| panic!("{e}"))
@@ -104,7 +98,7 @@ fn a_pendulum_swings_as_its_length_says() {
             "L = {length}: {:e}",
             motion.state[3] - vx
         );
-        let [[largest, _], _] = extremes(&motion, 0);
+        let [[largest, _], _] = motion.largest(0);
         let pull = 2.0 * (g + v * v / length);
         assert!(
             (largest - pull).abs() < 1e-13 * pull,
@@ -138,8 +132,8 @@ simulate = { t_end = 0.1 }
         (motion.rank, motion.redundancy, motion.not_unique),
         (3, 1, Some(2))
     );
-    for k in 0..motion.extremes.len() {
-        let [force, torque] = extremes(&motion, k);
+    for k in 0..motion.peaks.len() {
+        let [force, torque] = motion.largest(k);
         assert!(force.iter().all(|x| x.is_nan()), "{force:?}");
         // A hinge of the plane has no torque under any load.
         assert_eq!(torque, [0.0, 0.0]);
@@ -251,13 +245,13 @@ fn verdicts_of_a_row_are_those_of_its_run() {
     );
     let motion = of("");
     assert_eq!((motion.redundancy, motion.not_unique), (1, Some(7)));
-    assert!((0..7).all(|k| extremes(&motion, k)[0][0].is_nan()));
+    assert!((0..7).all(|k| motion.largest(k)[0][0].is_nan()));
     // All joints are counted, whether or not their reactions have columns.
     let motion = of("output = { reactions = [\"guide x\"] }\n");
-    assert_eq!((motion.not_unique, motion.extremes.len()), (Some(7), 1));
+    assert_eq!((motion.not_unique, motion.peaks.len()), (Some(7), 1));
     // Without reactions there are no verdicts of the run.
     let motion = of("output = { reactions = false }\n");
-    assert_eq!((motion.not_unique, motion.extremes.len()), (None, 0));
+    assert_eq!((motion.not_unique, motion.peaks.len()), (None, 0));
 }
 
 /// A bar is fixed at one end, and the other end is constrained along the bar. The force along the
@@ -276,7 +270,7 @@ simulate = { t_end = 0.1 }
     let registry = Registry::standard();
     let sweep = sweep(&registry, scene, &["body.bar.mass=3,6"]);
     let motion = sweep.row(2).motion.expect("it stands still");
-    let [[force, _], [torque, _]] = extremes(&motion, 0);
+    let [[force, _], [torque, _]] = motion.largest(0);
     // The load is 6 kg at 0.5 m.
     assert!(
         force.is_nan() && (torque - 30.0).abs() < 1e-12,
@@ -614,7 +608,7 @@ fn wrong_sweeps_are_refused_before_anything_is_written() {
         ),
         (
             refused(PENDULUM, &["body.bob.mas=1,2"]),
-            "none of the 2 runs can begin; the first, with body.bob.mas = 1: body `bob` has no key `mas`; did you mean `mass`?",
+            "all 2 runs fail at the start; the first, with body.bob.mas = 1: body `bob` has no key `mas`; did you mean `mass`?",
         ),
         (refused(PENDULUM, &["body.bob.mass=-1,-2"]), "mass is -1"),
         (refused(&endless, &["body.bob.mass=1,2"]), "t_end"),

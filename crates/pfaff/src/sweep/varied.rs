@@ -170,9 +170,9 @@ impl<'r> Sweep<'r> {
     ///     Sweep::read("pendulum.toml", scene, &registry, axes).unwrap()
     /// };
     /// let masses = read("body.bob.mass=1:2:100").evaluation();
-    /// assert!(masses.starts_with("on generated code, 8 runs at once; it takes 2 numbers"), "{masses}");
+    /// assert!(masses.starts_with("generated code, 8 runs at the same time; its inputs are 2 numbers"), "{masses}");
     /// let few = read("body.bob.mass=1,2").evaluation();
-    /// assert!(few.starts_with("interpreted: code is made for 100 runs"), "{few}");
+    /// assert!(few.starts_with("interpreted: code is generated for at least 100 runs"), "{few}");
     /// ```
     #[must_use]
     pub fn evaluation(&self) -> String {
@@ -225,7 +225,10 @@ impl<'r> Sweep<'r> {
     #[must_use]
     pub fn point(&self, run: u64) -> Vec<f64> {
         let runs = self.runs();
-        assert!((1..=runs).contains(&run), "no run {run} of 1 to {runs}");
+        assert!(
+            (1..=runs).contains(&run),
+            "run {run} does not exist: runs are 1 to {runs}"
+        );
         // The conversion is safe, because the number of runs was a usize.
         let point = self.grid.point((run - 1) as usize).into_iter();
         point
@@ -321,7 +324,8 @@ impl<'r> Sweep<'r> {
             error => SweepRow {
                 run,
                 varied: self.point(run),
-                status: match error {
+                status: match &error {
+                    Some(error) if error.is_opening() => SweepStatus::Opened,
                     Some(_) => SweepStatus::Stopped,
                     None => SweepStatus::Done,
                 },
@@ -355,7 +359,7 @@ impl<'r> Sweep<'r> {
 }
 
 /// Message for a run that has ended its process.
-const CRASHED: &str = "the process ended twice while it made this run and no other";
+const CRASHED: &str = "the process ended twice while it performed only this run";
 
 /// Returns an error as text, without the name and the lines of a text that the user has not
 /// written.

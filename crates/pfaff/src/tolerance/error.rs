@@ -31,10 +31,8 @@ pub enum ToleranceError {
         /// Description of the error at one of its ends.
         reason: String,
     },
-    /// There are no numbers to displace.
-    #[error(
-        "nothing can be displaced: the scene has no joints or drives with numbers of their own"
-    )]
+    /// The scene has no numbers that can be displaced.
+    #[error("no datum can be displaced: no joint or drive of the scene has data")]
     NoData,
     /// The number of samples is out of its range.
     #[error("{samples} samples: need 1 to {SAMPLES_MAX}")]
@@ -44,8 +42,7 @@ pub enum ToleranceError {
     },
     /// The mechanism is too large.
     #[error(
-        "the mechanism has {rows} rows; samples are made of mechanisms with up to {ROWS_MAX}, because each of them is \
-         decided with dense matrices: make a scene of a part of it"
+        "the mechanism has {rows} rows; at most {ROWS_MAX} are supported, because each sample is analysed with dense matrices: describe a part of the mechanism as a scene"
     )]
     TooLarge {
         /// Number of rows.

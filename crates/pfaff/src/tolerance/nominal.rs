@@ -65,7 +65,7 @@ pub(super) struct Nominal {
     pub(super) kept: Vec<usize>,
     /// Independent rows of Φq.
     pub(super) position_kept: Vec<usize>,
-    /// The other rows of Φq.
+    /// The redundant rows of Φq.
     pub(super) missing: Vec<usize>,
     pub(super) reactions: Vec<NominalReaction>,
     pub(super) quantities: Vec<Quantity>,

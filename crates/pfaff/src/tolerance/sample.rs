@@ -10,12 +10,13 @@
 //! Assembly is not damped, because nearly dependent rows are the important ones. The rank of all
 //! rows is decided at the assembled pose with exact numbers, as for a plain matrix.
 
+use linalg::kernels::max_abs;
 use linalg::{KeptRowSaddle, Matrix};
 use model::start::requirement;
 use model::words::{rough, short};
-use model::{Level, Mechanism, Scratch, System};
+use model::{ConstraintId, Level, Mechanism, Scratch, System};
 use rank::{RankDecision, RankStatus};
-use solvability::{Configuration, Elasticity, Equations, RowTerms};
+use solvability::{CarriedContacts, Configuration, Elasticity, Equations, RowTerms, opened};
 
 use crate::elasticity::centres;
 use scene::Scene;
@@ -35,13 +36,13 @@ pub(super) const FAR: f64 = 0.3;
 /// the rows are nearly dependent.
 const ITERATIONS: usize = 40;
 
-/// A configuration satisfies its rows if their residuals are below this many roundings of their
-/// terms, or below the second number of them if the iteration no longer improves.
+/// A configuration satisfies its rows if their residuals are below this many rounding errors of
+/// their terms, or below the second number of them if the iteration no longer improves.
 const ROUNDINGS: f64 = 10.0;
 const STILL: f64 = 1e3;
 
 /// The reason for samples whose rows contradict each other, or nearly so.
-const NO_POSE: &str = "there is no pose near the described one on which the rows hold";
+const NO_POSE: &str = "no pose near the described one satisfies the rows";
 
 fn unassembled(e: linalg::SaddleError) -> SampleFailure {
     SampleFailure::new(NO_POSE, e)
@@ -73,8 +74,8 @@ pub struct AssembledSample {
     pub of_kept: Vec<&'static str>,
     /// The values of reactions on the independent rows, NaN if they are not unique.
     pub kept: Vec<f64>,
-    /// Bounds of the values that are not unique there, NaN without bounds; empty if no bounds were
-    /// requested.
+    /// Bounds of the values that are not unique on the independent rows, NaN without bounds; empty
+    /// if no bounds were requested.
     pub bounds: Vec<[f64; 2]>,
     /// The values with exact numbers, NaN if they are not unique or unknown.
     pub exact: Vec<f64>,
@@ -86,6 +87,8 @@ pub struct AssembledSample {
     pub markers: Vec<[f64; 3]>,
     /// Values of joint coordinates (measures).
     pub measures: Vec<f64>,
+    /// The one-sided joints that open with the described redundancy; empty if all can stay closed.
+    pub opened: Vec<ConstraintId>,
 }
 
 impl Nominal {
@@ -135,6 +138,7 @@ impl Nominal {
             self.with_exact_numbers(mechanism, (&s, &q, &v), &decision, &lambda);
         let of_kept = self.on_kept_rows(mechanism, &s, &q);
         let bounds = self.bounds_of((mechanism, &q), of_kept.as_ref(), &lambda);
+        let opened = self.opened((mechanism, &s, &q, &v), of_kept.as_ref(), &lambda);
         let of_kept = self.verdicts_of(mechanism, of_kept.as_ref());
         let numbers = self.numbers_of(mechanism, &s, &lambda).into_iter();
         let kept = numbers.zip(&of_kept).map(|(x, verdict)| match *verdict {
@@ -159,6 +163,7 @@ impl Nominal {
             measures: (0..observed.measures.len())
                 .map(|k| frames.measure(k, &q, &v))
                 .collect(),
+            opened,
         })
     }
 
@@ -166,7 +171,7 @@ impl Nominal {
     fn pose_of(&self, mechanism: &Mechanism, base: &Base) -> Result<Vec<f64>, SampleFailure> {
         let q = self.closest(mechanism, &base.q)?;
         requirement(mechanism, &q)
-            .map_err(|e| SampleFailure::new("a requirement of a joint does not hold", e))?;
+            .map_err(|e| SampleFailure::new("a requirement of a joint is not satisfied", e))?;
         let space = mechanism.space();
         let moved = mechanism.difference_of(&q, &self.base.q);
         let share = |j: usize| moved[j].abs() / space.unit(j, self.size);
@@ -243,7 +248,7 @@ impl Nominal {
             .max_by(|a, b| s.phi[*a].abs().total_cmp(&s.phi[*b].abs()));
         let detail = worst.map_or(String::new(), |i| {
             format!(
-                "row {} still misses by {}",
+                "row {} is still violated by {}",
                 mechanism.layout().labels[i],
                 rough(s.phi[i].abs())
             )
@@ -385,6 +390,27 @@ impl Nominal {
             _ => [f64::NAN; 2],
         };
         self.quantities.iter().map(of).collect()
+    }
+
+    /// Returns the one-sided joints that open with the described redundancy.
+    fn opened(
+        &self,
+        (mechanism, s, q, v): (&Mechanism, &Scratch, &[f64], &[f64]),
+        at: Option<&Configuration<'_>>,
+        lambda: &[f64],
+    ) -> Vec<ConstraintId> {
+        let is_whole = self.kept.len() == mechanism.layout().rows();
+        let contacts = CarriedContacts::of(mechanism).filter(|_| is_whole || at.is_some());
+        let Some(contacts) = contacts else {
+            return Vec::new();
+        };
+        let dependencies = at.map_or_else(Vec::new, |at| at.solvability().dependencies());
+        let loads = max_abs(&s.force);
+        let found = contacts.closure((mechanism, s), (lambda, loads), &dependencies);
+        match found.opening.as_slice() {
+            [] => Vec::new(),
+            opening => opened(mechanism, (self.t, q, v), opening),
+        }
     }
 
     /// Returns the verdicts with exact numbers at this configuration, and the numbers that are

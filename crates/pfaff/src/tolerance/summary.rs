@@ -4,11 +4,12 @@ use std::cmp::Reverse;
 
 use crate::documents::{
     BoundsOfSamples, DescribedDocument, DrawnDocument, FailureDocument, MarkerRangeDocument,
-    MeasureRangeDocument, MovedDocument, QuantityRangeDocument, RangeDocument, RankCountDocument,
-    ReactionRangeDocument, RowMisfitDocument, ToleranceDocument, VariedDocument, VerdictCounts,
+    MeasureRangeDocument, MovedDocument, OpeningsDocument, QuantityRangeDocument, RangeDocument,
+    RankCountDocument, ReactionRangeDocument, RowMisfitDocument, ToleranceDocument, VariedDocument,
+    VerdictCounts,
 };
 use model::words::{estimate, quantity, range as range_in, short};
-use model::{DataUnit, System};
+use model::{ConstraintId, DataUnit, System};
 use report::ByName;
 use solvability::Elasticity;
 
@@ -71,6 +72,7 @@ impl Nominal {
             described: self.described(),
             ranks: self.ranks(&good),
             undecided: good.iter().filter(|(_, s)| s.rank.is_none()).count() as u64,
+            openings: self.openings(&good),
             misfits: self.misfits(&good),
             reactions,
             bodies: self.bodies(&good),
@@ -137,6 +139,24 @@ impl Nominal {
         }
         ranks.sort_by_key(|own| Reverse((own.samples, own.rank)));
         ranks
+    }
+
+    /// Counts the samples in which one-sided joints open.
+    fn openings(&self, good: &[(u64, &AssembledSample)]) -> Option<OpeningsDocument> {
+        let layout = self.mechanism.layout();
+        let sided = layout.constraint_ids();
+        let sided = sided.filter(|id| layout.groups[id.0].limits.open_side.is_some());
+        let of_joint = |id: ConstraintId| {
+            let samples = good.iter().filter(|(_, s)| s.opened.contains(&id)).count();
+            (layout.groups[id.0].name.clone(), samples as u64)
+        };
+        let joints: Vec<(String, u64)> = sided.map(of_joint).collect();
+        let mut open = good.iter().filter(|(_, s)| !s.opened.is_empty());
+        (!joints.is_empty()).then(|| OpeningsDocument {
+            samples: open.clone().count() as u64,
+            first: open.next().map(|(number, _)| *number),
+            joints: ByName(joints.into_iter().filter(|(_, n)| *n > 0).collect()),
+        })
     }
 
     fn misfits(&self, good: &[(u64, &AssembledSample)]) -> Vec<RowMisfitDocument> {
@@ -491,10 +511,11 @@ fn failures(samples: &[Sample]) -> Vec<FailureDocument> {
 /// Reason why a number has no range.
 const NO_SAMPLE: &str = "no sample was assembled";
 const NEVER: &str = "not unique in any sample";
-const SOME_SAMPLES: &str = "exact numbers determine it in some samples only";
+const SOME_SAMPLES: &str = "only in some samples do the exact numbers determine it";
 const SHARED_IN_SAMPLES: &str =
-    "unique as described, but in samples it depends on how redundant rows share loads";
-const CANNOT_MOVE: &str = "rigid and without play or slip the mechanism could not move as it does";
+    "unique in the described scene, but in samples it depends on how redundant rows share loads";
+const CANNOT_MOVE: &str =
+    "without play, slip or elasticity the mechanism could not perform this motion";
 
 /// Data of the sentence about a reaction in addition to its range.
 struct RangeContext<'a> {

@@ -164,7 +164,7 @@ impl<'r> VariedText<'r> {
             .map(|(variation, share)| variation.share(*share))
             .collect();
         let text = self.template.shifted(&shifts);
-        let text = text.ok_or("the scene states no number there")?;
+        let text = text.ok_or("the scene has no number for this key")?;
         let read = AssembledScene::read(&self.name, &text, self.registry)
             .and_then(|assembled| assembled.stating(self.tolerance));
         let mut assembled = read.map_err(|e| e.to_string())?;

@@ -73,10 +73,10 @@ impl UnitSystem {
     }
 }
 
-/// Aligns lines of cells in columns; the first line is the header. All quantities of a table in the
-/// same SI unit have the same prefix. If all quantities of a column have the same unit, the header
-/// contains it.
-pub(super) fn columns(lines: &[Vec<Cell>], units: UnitSystem) -> String {
+/// Returns the texts of a table column by column; the first text of each column is its header. All
+/// quantities of a table in the same SI unit have the same prefix. If all quantities of a column
+/// have the same unit, the header contains it.
+pub(crate) fn cells_of_table(lines: &[Vec<Cell>], units: UnitSystem) -> Vec<Vec<String>> {
     let n = lines.iter().map(Vec::len).max().unwrap_or(0);
     let lines: Vec<Vec<Cell>> = lines.iter().flat_map(|line| unfolded(line)).collect();
     let quantities = lines.iter().flatten().filter_map(|cell| match cell {
@@ -84,12 +84,16 @@ pub(super) fn columns(lines: &[Vec<Cell>], units: UnitSystem) -> String {
         _ => None,
     });
     let scale = Scale::new(quantities, units);
-    let columns = (0..n).map(|k| scale.column(&lines, k));
-    let columns: Vec<Vec<String>> = columns.collect();
+    (0..n).map(|k| scale.column(&lines, k)).collect()
+}
+
+/// Aligns lines of cells in columns.
+pub(super) fn columns(lines: &[Vec<Cell>], units: UnitSystem) -> String {
+    let columns = cells_of_table(lines, units);
     let width = |cells: &Vec<String>| cells.iter().map(|cell| cell.chars().count()).max();
     let widths: Vec<usize> = columns.iter().filter_map(width).collect();
     let mut out = String::new();
-    for i in 0..lines.len() {
+    for i in 0..columns.first().map_or(0, Vec::len) {
         let cells = columns.iter().zip(&widths);
         let cells = cells.map(|(cells, &w)| format!("{:<w$}", cells[i]));
         out.push_str(cells.collect::<Vec<_>>().join("  ").trim_end());

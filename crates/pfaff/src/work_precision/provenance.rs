@@ -39,7 +39,7 @@ fn processor() -> Option<String> {
     Some(name.trim().to_owned()).filter(|name| !name.is_empty())
 }
 
-/// Returns the present date and time in UTC, in the form `2026-11-21 16:20 UTC`.
+/// Returns the current date and time in UTC, in the form `2026-11-21 16:20 UTC`.
 #[must_use]
 pub fn date() -> String {
     let since = SystemTime::now().duration_since(UNIX_EPOCH);

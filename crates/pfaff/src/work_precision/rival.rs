@@ -39,7 +39,7 @@ pub enum RivalFault {
     Stopped(String),
 }
 
-/// Results of a run of a rival.
+/// Results of a run of another library.
 #[derive(Clone, Debug)]
 pub struct RivalRun {
     /// Rows at the instants.

@@ -36,7 +36,7 @@ impl Errors {
     }
 }
 
-/// A motion known without a run, by index ([`Kind::place`](super::Kind::place)).
+/// Index of a motion that is known without a run ([`Kind::place`](super::Kind::place)).
 #[derive(Clone, Debug)]
 pub struct Reference {
     /// Source of the values.

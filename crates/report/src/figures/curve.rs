@@ -7,7 +7,7 @@ use super::svg::{Svg, point_list};
 /// Half the size of a marker (px).
 const HALF: f64 = 3.4;
 
-/// Appearance of a curve. Its index determines both colour and marker.
+/// Appearance of a curve. The index of a curve determines both colour and marker.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Look(usize);
 

@@ -82,7 +82,8 @@ pub(crate) struct DrawnSite {
     pub(crate) place: Place,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) axis: Option<Heading>,
-    /// The other end of a rod, the block of a guide, or the part that slides on a plane.
+    /// Second part of a symbol: the far end of a rod, the block of a guide, or the part that slides
+    /// on a plane.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) end: Option<Place>,
     pub(crate) grounded: bool,

@@ -1,5 +1,5 @@
-//! Error over an extreme parameter value, in log–log axes. There is one panel for each test and
-//! each varied parameter.
+//! Error over an extreme parameter value, in log–log axes. The figure has one panel for each test
+//! and each varied parameter.
 
 use super::curve::{Curve, Look};
 use super::decades::{Unit, decades};

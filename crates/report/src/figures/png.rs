@@ -29,7 +29,7 @@ pub(crate) const SOFTWARE: &str = "pfaff";
 #[cfg(any(feature = "png", test))]
 const SHARP: f64 = 2.0;
 
-/// Allowed scales. Below a tenth, symbols cannot be distinguished.
+/// Allowed scales. Below 0.1, symbols cannot be distinguished.
 const SCALES: RangeInclusive<f64> = 0.1..=20.0;
 
 /// Maximum number of pixels of a picture. A pixel has 4 bytes, and three copies are in memory while
@@ -42,7 +42,7 @@ const MOST_PIXELS: f64 = 2.5e7;
 pub enum PngError {
     /// This program was built without the rendering of pictures.
     #[error(
-        "this program is built without the feature `png`: take SVG, or install it with `--features png`"
+        "this program is built without the feature `png`: use SVG, or install it with `--features png`"
     )]
     Unavailable,
     /// The scale is not a number, or out of range.
@@ -57,7 +57,7 @@ pub enum PngError {
     },
     /// The picture would be too large.
     #[error(
-        "the picture would have {width} x {height} pixels, the most are {} million: {}",
+        "the picture would have {width} x {height} pixels, at most {} million are supported: {}",
         MOST_PIXELS / 1e6,
         smaller(*largest)
     )]
@@ -70,13 +70,13 @@ pub enum PngError {
         largest: f64,
     },
     /// The figure has more elements than can be rendered, or is not SVG.
-    #[error("the figure cannot be painted: {reason}; take SVG")]
+    #[error("the figure cannot be painted: {reason}; use SVG")]
     Figure {
         /// Description of the fault.
         reason: String,
     },
     /// The picture cannot be compressed.
-    #[error("the picture cannot be written as PNG: {reason}; take SVG")]
+    #[error("the picture cannot be written as PNG: {reason}; use SVG")]
     Packing {
         /// Description of the fault.
         reason: String,
@@ -86,7 +86,7 @@ pub enum PngError {
 fn smaller(largest: f64) -> String {
     let rounded = (10.0 * largest).floor() / 10.0;
     if SCALES.contains(&rounded) {
-        format!("take a scale up to {rounded}")
+        format!("use a scale up to {rounded}")
     } else {
         "take SVG".to_owned()
     }

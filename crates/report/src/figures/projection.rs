@@ -74,7 +74,7 @@ impl Projection {
         [self.right, self.up].map(|[a, b, c]| a * x + b * y + c * z)
     }
 
-    /// Whether the picture shows the plane itself.
+    /// Whether the picture shows a planar mechanism, without a projection.
     pub(crate) fn is_plane(&self) -> bool {
         *self == Self::PLANE
     }

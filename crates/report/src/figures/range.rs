@@ -8,7 +8,7 @@ use serde::Serialize;
 pub struct RangeDocument {
     /// Number of samples.
     pub samples: u64,
-    /// Value for the described data; `null` if the number is not unique there.
+    /// Value for the described data; `null` if the number is not unique for these data.
     pub described: Option<f64>,
     /// The least value.
     pub least: f64,

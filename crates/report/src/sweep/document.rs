@@ -21,7 +21,7 @@ pub struct SweepDocument {
     pub shard: Option<Runs>,
     /// Number of runs that have a row.
     pub finished: u64,
-    /// Whether some runs have no row.
+    /// Whether the table lacks the rows of some runs.
     pub partial: bool,
     /// Runs that have no row.
     pub missing: Vec<Runs>,
@@ -29,6 +29,8 @@ pub struct SweepDocument {
     pub repeated: u64,
     /// Number of runs that reached their end.
     pub done: u64,
+    /// Number of runs that ended when their one-sided joints opened.
+    pub opened: u64,
     /// Number of runs that stopped before their end.
     pub stopped: u64,
     /// Number of runs that did not start.
@@ -95,8 +97,9 @@ impl SweepDocument {
             let such = rows.values().filter(|c| word(c, status) == wanted.name());
             such.count() as u64
         };
-        let is_done = |cells: &[Cell]| word(cells, status) == SweepStatus::Done.name();
-        let failures = rows.iter().filter(|(_, cells)| !is_done(cells));
+        let good = [SweepStatus::Done, SweepStatus::Opened].map(SweepStatus::name);
+        let is_good = |cells: &[Cell]| good.contains(&word(cells, status).as_str());
+        let failures = rows.iter().filter(|(_, cells)| !is_good(cells));
         let mut worst: Option<(u64, f64)> = None;
         for (run, cells) in rows {
             if let Some(Cell::Number(x)) = cells.get(balance)
@@ -120,6 +123,7 @@ impl SweepDocument {
             missing,
             repeated: *repeated,
             done: count(SweepStatus::Done),
+            opened: count(SweepStatus::Opened),
             stopped: count(SweepStatus::Stopped),
             refused: count(SweepStatus::Refused),
             crashed: count(SweepStatus::Crashed),

@@ -37,7 +37,7 @@ pub enum JournalError {
         path: PathBuf,
     },
     /// The directory contains no sweep.
-    #[error("no sweep was begun in `{}`", directory.display())]
+    #[error("`{}` does not contain a sweep", directory.display())]
     Missing {
         /// The directory.
         directory: PathBuf,
@@ -50,7 +50,7 @@ pub enum JournalError {
 /// Two rows of one run that differ.
 #[derive(Debug, thiserror::Error)]
 #[error(
-    "run {run} was made twice, and differently: `{column}` is {} in `{}` and {} in `{}`; the machines compute different results: remove the file that you do not trust, and repeat its runs",
+    "run {run} was performed twice, with different results: `{column}` is {} in `{}` and {} in `{}`; the machines compute different results: remove one of the files and repeat its runs",
     values[0], paths[0].display(), values[1], paths[1].display()
 )]
 pub struct Difference {
@@ -58,7 +58,7 @@ pub struct Difference {
     pub run: u64,
     /// The first column that differs.
     pub column: String,
-    /// Both values of this column.
+    /// The two different values of this column.
     pub values: [String; 2],
     /// The files of both rows.
     pub paths: [PathBuf; 2],

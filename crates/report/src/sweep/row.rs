@@ -1,15 +1,17 @@
 //! One run of a sweep as a row, and the columns of all rows.
 
-use solvability::Value;
-
 use super::{Cell, Column, Kind, SweepPlan};
+use crate::peaks::Peak;
 
 /// End of a run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SweepStatus {
     /// The run reached its end time.
     Done,
-    /// The run stopped earlier; the row contains the results up to this time.
+    /// The run ended at the instant at which its one-sided joints could no longer all stay closed;
+    /// the row contains the results up to this time.
+    Opened,
+    /// The run stopped earlier because of an error; the row contains the results up to this time.
     Stopped,
     /// The run did not start, because the mechanism or the motion does not exist for these values.
     Refused,
@@ -19,34 +21,22 @@ pub enum SweepStatus {
 }
 
 impl SweepStatus {
+    /// Returns whether the run ended with an error. The opening of one-sided joints is a result.
+    #[must_use]
+    pub fn is_failure(self) -> bool {
+        !matches!(self, Self::Done | Self::Opened)
+    }
+
     /// Name in tables.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
             Self::Done => "done",
+            Self::Opened => "opened",
             Self::Stopped => "stopped",
             Self::Refused => "refused",
             Self::Crashed => "crashed",
         }
-    }
-}
-
-/// Largest |F| or |T| of a joint or drive over the output rows of a run.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Extreme {
-    /// The value (N or N·m), with the verdict whether it is unique on the whole run. It is unique
-    /// if all components of the force, or of the torque, are unique.
-    pub value: Value,
-    /// The first time at which the value occurs (s).
-    pub time: f64,
-}
-
-impl Extreme {
-    /// The value and its time in a table; both are NaN if the value is not determined.
-    #[must_use]
-    pub fn cells(&self) -> [f64; 2] {
-        let value = self.value.determined();
-        value.map_or([f64::NAN; 2], |value| [value, self.time])
     }
 }
 
@@ -94,9 +84,9 @@ pub struct SweepMotion {
     /// The last output state, body by body in the order of [`SweepPlan::state`]; NaN if no row was
     /// written.
     pub state: Vec<f64>,
-    /// Extremes of force and torque of the joints and drives of [`SweepPlan::reactions`]; `None`
-    /// for a joint or drive without reactions.
-    pub extremes: Vec<Option<[Extreme; 2]>>,
+    /// Peaks of |F| (N) and |T| (N·m) of the joints and drives of [`SweepPlan::reactions`]; `None`
+    /// for a magnitude that is not determined on the whole run.
+    pub peaks: Vec<[Option<Peak>; 2]>,
     /// Upper bounds of the reactions that are not unique, if the scene requests them.
     pub at_most: Option<BoundsOfRun>,
 }
@@ -110,6 +100,20 @@ pub struct BoundsOfRun {
     /// [`SweepPlan::reactions`], each with its first time (s); NaN if the reaction is unique or has
     /// no bounds.
     pub largest: Vec<[[f64; 2]; 2]>,
+}
+
+impl SweepMotion {
+    /// Returns the largest |F| and |T| of a joint or drive, each with its first time; both numbers
+    /// are NaN if the magnitude is not determined.
+    #[must_use]
+    pub fn largest(&self, reaction: usize) -> [[f64; 2]; 2] {
+        self.peaks[reaction].each_ref().map(|peak| {
+            let value = peak
+                .as_ref()
+                .and_then(|peak| Some((peak.value.determined()?, peak.time)));
+            value.map_or([f64::NAN; 2], |(value, time)| [value, time])
+        })
+    }
 }
 
 /// A run.
@@ -150,12 +154,12 @@ const NUMBERS: Columns<f64, 7> = [
     ("start_velocity_correction", |m| m.start_velocity_correction),
     ("t_state", |m| m.t_state),
 ];
-const EXTREME: [&str; 4] = ["F_max", "F_max_t", "T_max", "T_max_t"];
+const LARGEST: [&str; 4] = ["F_max", "F_max_t", "T_max", "T_max_t"];
 const AT_MOST: [&str; 4] = ["F_at_most", "F_at_most_t", "T_at_most", "T_at_most_t"];
 
 impl SweepPlan {
     /// The columns are `run`, the varied keys, `status`, `error`, `method`, `t`, counts and other
-    /// values. Then follow the last state of each body, the extremes of each requested joint and
+    /// values. Then follow the last state of each body, the peaks of each requested joint and
     /// drive, and, if the scene requests bounds, the number of rows without bounds and the bounds.
     #[must_use]
     pub fn columns(&self) -> Vec<Column> {
@@ -166,7 +170,7 @@ impl SweepPlan {
                 .map(|name| (*name).to_owned())
                 .map(column(kind))
         };
-        let [extremes, at_most] = [EXTREME, AT_MOST].map(|names| names.map(str::to_owned));
+        let [largest, at_most] = [LARGEST, AT_MOST].map(|names| names.map(str::to_owned));
         let bounded: &[String] = if self.bounds { &self.reactions } else { &[] };
         let without: &[&str] = if self.bounds {
             &["rows_without_bounds"]
@@ -186,7 +190,7 @@ impl SweepPlan {
             .chain(COUNTS.map(|(name, _)| column(Kind::Count)(name.to_owned())))
             .chain(NUMBERS.map(|(name, _)| column(Kind::Number)(name.to_owned())))
             .chain(of(&self.bodies, &self.state))
-            .chain(of(&self.reactions, &extremes))
+            .chain(of(&self.reactions, &largest))
             .chain(own(without, Kind::Count))
             .chain(of(bounded, &at_most))
             .collect()
@@ -212,9 +216,7 @@ impl SweepPlan {
             }
         }
         for k in 0..self.reactions.len() {
-            let extremes = motion.and_then(|m| m.extremes[k].as_ref());
-            let values = extremes.map(|of| of.each_ref().map(Extreme::cells));
-            let values = values.unwrap_or([[f64::NAN; 2]; 2]);
+            let values = motion.map_or([[f64::NAN; 2]; 2], |m| m.largest(k));
             cells.extend(values.into_iter().flatten().map(Cell::Number));
         }
         if self.bounds {

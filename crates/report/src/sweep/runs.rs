@@ -4,7 +4,7 @@ use std::fmt;
 
 use serde::{Serialize, Serializer};
 
-/// Consecutive runs of a sweep, both ends included, counted from 1. There is at least one.
+/// Consecutive runs of a sweep, both ends included, counted from 1. A shard has at least one run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Runs {
     first: u64,

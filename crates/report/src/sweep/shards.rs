@@ -305,7 +305,7 @@ impl Shards {
         Journal::begin_in(&self.folder, (&self.plan, &self.mark), runs)
     }
 
-    /// Writes a finished shard. All of its runs have rows.
+    /// Writes a finished shard. All runs of the shard have rows.
     ///
     /// # Errors
     /// [`JournalError::File`]: the shard could not be written.
@@ -364,8 +364,8 @@ impl Shards {
     }
 
     /// Deletes the rows of runs during which the process ended, and removes these runs from the
-    /// list of suspects. They are made again like runs that were never started. Returns the number
-    /// of these runs. No process may make runs of the sweep at the same time.
+    /// list of suspects. These runs are performed again like runs that were never started. Returns
+    /// the number of these runs. No process may make runs of the sweep at the same time.
     ///
     /// # Errors
     /// Returns the same errors as [`Self::read`]; [`JournalError::File`]: a file could not be
@@ -411,7 +411,7 @@ impl Shards {
 }
 
 /// Records in the journals of this process that its end is intended and that the started runs did
-/// not cause it. This is for a process that will be ended without unwinding.
+/// not cause it. This function is for a process that will be ended without unwinding.
 pub fn end_attempts(directory: &Path) {
     let Ok(shards) = Shards::find(directory) else {
         return;

@@ -1,5 +1,5 @@
 //! The tables of a sweep, computed from its finished shards and journals in the order of the grid.
-//! They do not depend on which processes made the runs.
+//! The tables do not depend on which processes performed the runs.
 
 use super::document::Extent;
 use super::{Records, SweepDocument};

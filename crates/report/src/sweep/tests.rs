@@ -8,11 +8,12 @@ use solvability::{Value, Verdict};
 
 use super::line::line;
 use super::{
-    Cell, Extent, Extreme, JournalError, Records, Runs, Shards, SweepDocument, SweepMotion,
-    SweepPlan, SweepRow, SweepStatus, digest, write_sweep,
+    Cell, Extent, JournalError, Records, Runs, Shards, SweepDocument, SweepMotion, SweepPlan,
+    SweepRow, SweepStatus, digest, write_sweep,
 };
 use crate::files::process::Process;
 use crate::files::{FileError, OutputDirectory};
+use crate::peaks::Peak;
 use crate::tables::TableError;
 
 struct Folder(PathBuf);
@@ -112,7 +113,7 @@ fn row(run: u64) -> SweepRow {
             fragile: 0,
             t_state: 1.0,
             state: vec![0.1 + 0.2, -1e300, x, 1.0 / x, f64::NAN, f64::INFINITY],
-            extremes: vec![None],
+            peaks: vec![[None, None]],
             at_most: None,
         }),
     }
@@ -577,13 +578,17 @@ fn gaps_are_told_as_runs() {
 
 /// If the value is not determined, its time is also omitted.
 #[test]
-fn cells_of_extremes_are_determined() {
+fn cells_of_peaks_are_determined() {
     let plan = plan();
-    let extreme = |value| Extreme { value, time: 0.5 };
+    let peak = |value| Peak {
+        value,
+        time: 0.5,
+        over: vec![[0.0, 1.0]],
+    };
     let mut row = row(1);
     let motion = row.motion.as_mut().expect("it began");
     let open = Value::new(3.0, Verdict::NotUnique, None);
-    motion.extremes = vec![Some([extreme(Value::unique(2.0)), extreme(open)])];
+    motion.peaks = vec![[Some(peak(Value::unique(2.0))), Some(peak(open))]];
     let cells = plan.cells(&row);
     let last: Vec<f64> = cells[cells.len() - 4..]
         .iter()

@@ -5,8 +5,8 @@
 //! Solved in the frame of the body `platform`: it does not matter which way the whole points.
 //!
 //! Straight-line code on arrays, without allocation and without imports. SI units, radians; `M·v̇ + Cᵀ·λ = Q`, `C·v̇ = Γ`. Functions that
-//! divide return a health: the smallest divisor as a signed share of what it was at the states that the code was made for. Near 0 the
-//! order of elimination has worn out, below 0 a divisor has passed zero.
+//! divide return a health: the smallest divisor relative to its value at the states for which the code was generated, with its sign. Near 0 the
+//! order of elimination is no longer accurate, below 0 a divisor has passed through zero.
 //! At all 49 states that it was made for the health is above 0.1.
 //!
 //! | function | operations |
@@ -471,7 +471,7 @@ pub fn acceleration(t: f64, q: &[f64; N_Q], v: &[f64; N_V], a: &mut [f64; N_V]) 
     let x = rotations(q);
     acceleration_core(|k| f[k], |k| q[k], |k| v[k], |k| x[k], |k, value| a[k] = value)
 }
-///The same for L states at once, state by state in the last index.
+///The same for L states at the same time; the last index is the state.
 #[inline]
 pub fn acceleration_of<const L: usize>(
     t: &[f64; L],
@@ -835,7 +835,7 @@ fn multipliers_core(
         0.03125 * t145,
     )
 }
-///Their multipliers λ of all rows, 0 for dropped ones.
+///Multipliers λ of all rows for these accelerations; 0 for dropped rows.
 ///
 ///Operations: 438 mul, 365 add, 5 neg, 10 div.
 pub fn multipliers(
@@ -854,7 +854,7 @@ pub fn multipliers(
         |k, value| lambda[k] = value,
     )
 }
-///The same for L states at once, state by state in the last index.
+///The same for L states at the same time; the last index is the state.
 #[inline]
 pub fn multipliers_of<const L: usize>(
     t: &[f64; L],
@@ -970,7 +970,7 @@ pub fn phi(t: f64, q: &[f64; N_Q], values: &mut [f64; M]) {
     let x = rotations(q);
     phi_core(|k| f[k], |k| q[k], |k| x[k], |k, value| values[k] = value);
 }
-///The same for L states at once, state by state in the last index.
+///The same for L states at the same time; the last index is the state.
 #[inline]
 pub fn phi_of<const L: usize>(
     t: &[f64; L],
@@ -1112,7 +1112,7 @@ pub fn velocity_residual(
         |k, value| values[k] = value,
     );
 }
-///The same for L states at once, state by state in the last index.
+///The same for L states at the same time; the last index is the state.
 #[inline]
 pub fn velocity_residual_of<const L: usize>(
     t: &[f64; L],
@@ -1407,7 +1407,7 @@ pub fn position_correction(
     let x = rotations(q);
     position_correction_core(|k| q[k], |k| r[k], |k| x[k], |k, value| dq[k] = value)
 }
-///The same for L states at once, state by state in the last index.
+///The same for L states at the same time; the last index is the state.
 #[inline]
 pub fn position_correction_of<const L: usize>(
     t: &[f64; L],
@@ -1726,7 +1726,7 @@ pub fn velocity_correction(
     let x = rotations(q);
     velocity_correction_core(|k| q[k], |k| r[k], |k| x[k], |k, value| dv[k] = value)
 }
-///The same for L states at once, state by state in the last index.
+///The same for L states at the same time; the last index is the state.
 #[inline]
 pub fn velocity_correction_of<const L: usize>(
     t: &[f64; L],

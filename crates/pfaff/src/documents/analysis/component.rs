@@ -4,8 +4,9 @@ use model::Layout;
 use serde::Serialize;
 use solvability::{ComponentVerdict, Sensitivity};
 
+use crate::contacts;
 use crate::documents::{SensitivityDocument, VerdictDocument};
-use crate::questions::analyze::bounds::BoundsOfNumber;
+use crate::questions::analyze::bounds;
 
 /// The verdict of a component of a reaction or of a sum.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -24,12 +25,13 @@ pub struct ComponentDocument {
     /// other frames, components of moments and components of sums.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub generic_verdict: Option<Option<&'static str>>,
-    /// Bounds of the component for joints of any stiffness, if requested.
+    /// Range of the component for joints of any stiffness, if requested.
+    #[serde(flatten)]
+    pub elastic: bounds::RangeDocument,
+    /// The range of the component over the loads that contacts permit, if it is not unique and the
+    /// scene has one-sided joints or grip.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub bounds: Option<BoundsOfNumber>,
-    /// A range whose values some compliances give, if there are too many sets to examine all.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub reached_at_least: Option<[f64; 2]>,
+    pub range: Option<contacts::PermittedRangeDocument>,
     /// Sensitivity of the component to the data, if it is unique.
     #[serde(flatten)]
     pub data: SensitivityDocument,
@@ -57,8 +59,8 @@ impl From<&ComponentVerdict> for ComponentDocument {
             verdict: (&component.judgement).into(),
             zero: false,
             generic_verdict: None,
-            bounds: None,
-            reached_at_least: None,
+            elastic: bounds::RangeDocument::default(),
+            range: None,
             data: SensitivityDocument::default(),
         }
     }

@@ -7,7 +7,7 @@ use rank::{BEYOND_DOUBT, Certificate, Grounds};
 use serde::Serialize;
 use solvability::Analysis;
 
-/// Tolerances of the data, and what depends on them.
+/// Tolerances of the data, and the results that depend on the tolerances.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[non_exhaustive]

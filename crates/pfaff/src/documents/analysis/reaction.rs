@@ -9,6 +9,7 @@ use solvability::{
 };
 
 use super::{ComponentDocument, ValueDocument};
+use crate::contacts;
 use crate::documents::{SensitivityDocument, VerdictDocument};
 use crate::questions::analyze::{about, bounds, frames};
 
@@ -141,12 +142,12 @@ pub struct GroupDocument {
     /// The point (m, global components) about which the torque of a sum of wrenches is taken.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub about: Option<Vec<f64>>,
-    /// Bounds of the sum of components for joints of any stiffness, if requested.
+    /// Range of the sum of components for joints of any stiffness, if requested.
+    #[serde(flatten)]
+    pub elastic: bounds::RangeDocument,
+    /// The range of the sum over the loads that contacts permit, as for components.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub bounds: Option<bounds::BoundsOfNumber>,
-    /// A range whose values some compliances give, if there are too many sets to examine all.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub reached_at_least: Option<[f64; 2]>,
+    pub range: Option<contacts::PermittedRangeDocument>,
     /// Unit of the sum of components; absent if its terms have different units.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub unit: Option<&'static str>,
@@ -215,25 +216,37 @@ impl ReactionDocument {
         }
     }
 
-    /// Returns by name the verdicts that hold at nearly all configurations and differ from the
-    /// verdicts here. The names are the reaction, or else its components.
+    /// Returns the verdict here and the generic verdict, by name, if they differ. The names are the
+    /// reaction, or else its components.
     #[must_use]
-    pub fn differing(&self) -> Vec<(String, &'static str)> {
+    pub fn differing(&self) -> Vec<(String, [&'static str; 2])> {
         let own = self.components.iter().filter_map(|c| {
-            let generic = c.generic_verdict.flatten()?;
-            (generic != c.verdict.verdict).then(|| (format!("{}.{}", self.name, c.name), generic))
+            let verdicts = [c.verdict.verdict, c.generic_verdict.flatten()?];
+            let name = || format!("{}.{}", self.name, c.name);
+            (verdicts[0] != verdicts[1]).then(|| (name(), verdicts))
         });
-        let own: Vec<(String, &'static str)> = own.collect();
+        let own: Vec<(String, [&'static str; 2])> = own.collect();
         let whole = self.generic_verdict.filter(|generic| {
             let all_differ = own.len() == self.components.len();
             *generic != self.wrench.verdict && all_differ
         });
         match whole {
-            Some(generic) if own.iter().all(|(_, word)| *word == generic) => {
-                vec![(self.name.clone(), generic)]
+            Some(generic) if own.iter().all(|(_, words)| words[1] == generic) => {
+                vec![(self.name.clone(), [self.wrench.verdict, generic])]
             }
             _ => own,
         }
+    }
+
+    /// Returns the components that are not zero of the load of the reaction in a self-stress, by
+    /// name, on its first body.
+    pub(crate) fn loads_in(&self, dependency: usize) -> impl Iterator<Item = (String, f64)> + '_ {
+        let loads = self.free_directions.iter();
+        let loads = loads.filter(move |load| load.dependency == dependency);
+        loads.flat_map(move |load| {
+            let components = load.components().into_iter();
+            components.map(move |(name, value)| (format!("{}.{name}", self.name), value))
+        })
     }
 
     /// Adds the sensitivities of its components and directions.
@@ -279,6 +292,17 @@ impl ReactionDocument {
 }
 
 impl FreeDirectionDocument {
+    /// Returns the components that are not zero, by name.
+    fn components(&self) -> Vec<(&'static str, f64)> {
+        let (space, torques) = match &self.torque {
+            TorqueDocument::Number(torque) => (SpaceKind::Plane, std::slice::from_ref(torque)),
+            TorqueDocument::Vector(torque) => (SpaceKind::Space3, torque.as_slice()),
+        };
+        let values = self.force.iter().chain(torques).copied();
+        let named = space.components().iter().copied().zip(values);
+        named.filter(|(_, value)| *value != 0.0).collect()
+    }
+
     fn new(dependency: usize, direction: &FreeDirection) -> Self {
         Self {
             dependency,
@@ -357,8 +381,8 @@ impl GroupDocument {
             data: SensitivityDocument::default(),
             components: verdict.components.iter().map(Into::into).collect(),
             about: verdict.about.map(|point| components(verdict.space, point)),
-            bounds: None,
-            reached_at_least: None,
+            elastic: bounds::RangeDocument::default(),
+            range: None,
             unit: None,
             values: Vec::new(),
         }

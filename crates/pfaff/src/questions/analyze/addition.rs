@@ -5,10 +5,25 @@ use solvability::ComponentVerdict;
 
 use super::options::Analyze;
 use crate::configuration::ConfigurationAnalysis;
-use crate::documents::AnalysisDocument;
+use crate::documents::{AlongDocument, AnalysisDocument};
 use crate::error::StudyError;
+use crate::question::Control;
 use crate::refusal::Refusal;
+use crate::start::Start;
+use crate::study::Study;
 use crate::words::Block;
+
+/// The analysed motion of a scene.
+pub(super) struct AnalysedMotion<'a> {
+    /// The scene.
+    pub(super) of: &'a Start<'a>,
+    /// The scene with its mechanism.
+    pub(super) study: &'a Study,
+    /// The configuration at the requested time.
+    pub(super) configuration: &'a ConfigurationAnalysis<'a>,
+    /// Progress and interrupts.
+    pub(super) control: &'a Control<'a>,
+}
 
 /// An optional part of an analysis.
 pub(super) trait Addition: Sync {
@@ -25,10 +40,34 @@ pub(super) trait Addition: Sync {
         document: &mut AnalysisDocument,
     ) -> Result<(), StudyError>;
 
-    /// Returns the same results as text.
+    /// Adds the requested results over the motion.
+    fn add_along(
+        &self,
+        _asked: &Analyze,
+        _of: &AnalysedMotion<'_>,
+        _document: &mut AlongDocument,
+    ) -> Result<(), Refusal> {
+        Ok(())
+    }
+
+    /// Returns a sentence with results that the text contains without a request.
+    fn sentence(
+        &self,
+        _of: &ConfigurationAnalysis<'_>,
+        _document: &AnalysisDocument,
+    ) -> Option<String> {
+        None
+    }
+
+    /// Returns the requested results as text.
     fn words(&self, d: &AnalysisDocument) -> Vec<Block>;
 
-    /// Returns files with the same results.
+    /// Returns the requested results over the motion as text.
+    fn words_along(&self, _along: &AlongDocument) -> Vec<Block> {
+        Vec::new()
+    }
+
+    /// Returns files with the requested results.
     fn files(&self, _d: &AnalysisDocument) -> Result<Vec<(&'static str, Vec<u8>)>, TableError> {
         Ok(Vec::new())
     }

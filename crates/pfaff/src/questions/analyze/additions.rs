@@ -1,12 +1,13 @@
 //! The list of the optional parts of an analysis, each in a folder of its own.
 
 use super::addition::Addition;
-use super::{about, bounds, frames, matrices};
+use super::{about, bounds, contacts, frames, matrices};
 
 /// All optional parts, in the order of the text.
 pub(super) const ADDITIONS: &[&dyn Addition] = &[
     &frames::OtherFrames,
     &about::Moments,
+    &contacts::ContactsOfScene,
     &bounds::BoundsOfReactions,
     &matrices::Matrices,
 ];

@@ -1,12 +1,10 @@
 //! Text on the verdicts along the motion.
 
-use crate::documents::{
-    AlongDocument, AlongReactionDocument, ByName, RunDocument, SpecialDocument,
-};
+use crate::documents::{AlongDocument, AlongReactionDocument, SpecialDocument};
 use model::words::rounded;
 
+use super::additions::ADDITIONS;
 use super::phrases::spoken;
-use crate::bounds_of_run::largest_loads;
 use crate::words::{Block, count};
 
 /// If analysed states are farther apart than this, they may not show a change: a fraction of the
@@ -63,28 +61,9 @@ pub(super) fn of(along: &AlongDocument) -> Vec<Block> {
             None => format!("the motion stopped; later times were not analysed: {reason}"),
         });
     }
-    if let Some(bounds) = &along.bounds {
-        let most = |(name, r): &(String, AlongReactionDocument)| {
-            Some((name.clone(), r.magnitude_at_most?))
-        };
-        let loads = along.reactions.0.iter().filter_map(most);
-        out.extend(largest_loads(bounds, loads.collect()));
-    }
+    let additions = ADDITIONS.iter();
+    out.extend(additions.flat_map(|addition| addition.words_along(along)));
     out
-}
-
-/// Adds the bounds of a run over the same motion.
-pub(super) fn add_bounds(along: &mut AlongDocument, run: &RunDocument) {
-    along.bounds.clone_from(&run.bounds);
-    for (name, reaction) in &mut along.reactions.0 {
-        let Some((_, own)) = run.reactions.0.iter().find(|(known, _)| known == name) else {
-            continue;
-        };
-        reaction.magnitude_at_most = own.magnitude_at_most;
-        let bounds = own.components.0.iter();
-        let bounds = bounds.filter_map(|(name, c)| Some((name.clone(), c.bounds?)));
-        reaction.bounds = ByName(bounds.collect());
-    }
 }
 
 /// Describes the rank, and the verdict on each reaction over the motion.

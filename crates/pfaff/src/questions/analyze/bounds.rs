@@ -1,21 +1,24 @@
 //! Bounds of the reactions that the model does not determine, for joints of any stiffness.
 
+mod along;
 mod answer;
 
 use model::reaction::ConstraintGroup;
 use model::words::{listed, range};
-use model::{ConstraintId, Layout, System};
+use model::{ConstraintId, System};
 use report::ByName;
 use solvability::{BoundsError, ElasticBounds, Elasticity, Group, PartAnalysis, ReactionBounds};
 
-pub use answer::{BoundsDocument, BoundsOfNumber, ElasticLoadDocument, MagnitudeDocument};
+pub use answer::{
+    BoundsDocument, BoundsOfNumber, ElasticLoadDocument, MagnitudeDocument, RangeDocument,
+};
 
-use super::addition::Addition;
+use super::addition::{Addition, AnalysedMotion};
 use super::options::Analyze;
 use super::phrases::LINES;
 use crate::configuration::ConfigurationAnalysis;
 use crate::documents::analysis::components;
-use crate::documents::{AnalysisDocument, ComponentDocument};
+use crate::documents::{AlongDocument, AnalysisDocument, ComponentDocument};
 use crate::error::StudyError;
 use crate::refusal::Refusal;
 use crate::words::{Block, Cell, grouped, load_unit, marked};
@@ -50,7 +53,7 @@ impl Addition for BoundsOfReactions {
         } else {
             answer.rigid = elasticity.rigid.iter().map(|id| name(of, *id)).collect();
             let solution = of.solution()?;
-            let found = of.bounds(&solution, &elasticity).of_all_parts();
+            let found = of.bounds(solution, &elasticity).of_all_parts();
             of_reactions(of, &found, document, &mut answer);
             let groups = of.requested(&asked.combine)?;
             for (group, (_, asked)) in document.groups.iter_mut().zip(&groups) {
@@ -59,19 +62,43 @@ impl Addition for BoundsOfReactions {
                     Vec::new()
                 });
                 for (number, bounds) in numbers {
-                    let (bounds, reached) = split(&bounds, of.mechanism.layout());
-                    answer.complete &= reached.is_none();
+                    answer.complete &= bounds.complete;
                     let own = group.components.iter_mut().find(|c| c.name == number);
-                    match own {
-                        Some(own) => (own.bounds, own.reached_at_least) = (bounds, reached),
-                        None => (group.bounds, group.reached_at_least) = (bounds, reached),
-                    }
+                    let own = own.map_or(&mut group.elastic, |c| &mut c.elastic);
+                    *own = RangeDocument::new(&bounds, of.mechanism.layout());
                 }
             }
             answer.eliminations = found.sets();
         }
         document.answers.bounds = Some(answer);
         Ok(())
+    }
+
+    fn add_along(
+        &self,
+        asked: &Analyze,
+        of: &AnalysedMotion<'_>,
+        document: &mut AlongDocument,
+    ) -> Result<(), Refusal> {
+        match elasticity(asked, of.configuration)? {
+            Some(elasticity) => along::add(&elasticity, of, document),
+            None => Ok(()),
+        }
+    }
+
+    fn sentence(
+        &self,
+        of: &ConfigurationAnalysis<'_>,
+        document: &AnalysisDocument,
+    ) -> Option<String> {
+        let bounds = in_one_line(of, document)?;
+        Some(format!(
+            "for any stiffness (`--bounds` prints all): {bounds}"
+        ))
+    }
+
+    fn words_along(&self, along: &AlongDocument) -> Vec<Block> {
+        along::words(along)
     }
 
     fn words(&self, d: &AnalysisDocument) -> Vec<Block> {
@@ -93,12 +120,15 @@ impl Addition for BoundsOfReactions {
             .iter()
             .flat_map(|g| g.components.iter().map(move |c| (&g.name, c)));
         let of_components = of_reactions.chain(of_groups).filter_map(|(owner, c)| {
-            let bounds = c.bounds.as_ref()?;
+            let bounds = c.elastic.bounds.as_ref()?;
             Some((&c.verdict, (owner, c.name, load_unit(c.name), bounds)))
         });
         let sums = d.groups.iter().filter_map(|g| {
             let unit = g.unit.unwrap_or_default();
-            Some((&g.verdict, (&g.name, "sum", unit, g.bounds.as_ref()?)))
+            Some((
+                &g.verdict,
+                (&g.name, "sum", unit, g.elastic.bounds.as_ref()?),
+            ))
         });
         let all = of_components.chain(sums);
         let all = all.filter(|(verdict, _)| verdict.verdict == "not_unique");
@@ -177,9 +207,9 @@ fn reached(d: &AnalysisDocument) -> Option<[Block; 3]> {
     let owners = d.reactions.iter().map(|r| (&r.name, &r.components));
     let owners = owners.chain(d.groups.iter().map(|g| (&g.name, &g.components)));
     let each = owners.flat_map(|(name, components)| components.iter().map(move |c| (name, c)));
-    let each = each.filter_map(|(name, c)| Some((name, c.name, c.reached_at_least?)));
+    let each = each.filter_map(|(name, c)| Some((name, c.name, c.elastic.reached_at_least?)));
     let sums = d.groups.iter();
-    let sums = sums.filter_map(|g| Some((&g.name, "sum", g.reached_at_least?)));
+    let sums = sums.filter_map(|g| Some((&g.name, "sum", g.elastic.reached_at_least?)));
     let mut all: Vec<(&String, &str, [f64; 2])> = each.chain(sums).collect();
     let width = |(.., [from, to]): &(&String, &str, [f64; 2])| to - from;
     all.sort_by(|a, b| width(b).total_cmp(&width(a)));
@@ -203,7 +233,8 @@ fn reached(d: &AnalysisDocument) -> Option<[Block; 3]> {
     };
     (!all.is_empty()).then(|| {
         let words = format!(
-            "Ranges that some compliances reach (no bounds: there are more than 100 000 sets{more}):"
+            "Ranges that some compliances reach (no bounds: {}{more}):",
+            BoundsError::Many
         );
         [
             Block::Heading(words),
@@ -221,7 +252,7 @@ const LISTED: usize = 3;
 
 /// Describes the bounds of reactions in parts that leave one load component undetermined; of each
 /// reaction only the component with the widest range, the largest reactions first.
-pub(super) fn in_one_line(of: &ConfigurationAnalysis<'_>, d: &AnalysisDocument) -> Option<String> {
+fn in_one_line(of: &ConfigurationAnalysis<'_>, d: &AnalysisDocument) -> Option<String> {
     let layout = of.mechanism.layout();
     let is_open = |id: &ConstraintId| d.reactions[id.0].wrench.verdict == "not_unique";
     let mut open = layout.constraint_ids().filter(is_open).peekable();
@@ -232,7 +263,7 @@ pub(super) fn in_one_line(of: &ConfigurationAnalysis<'_>, d: &AnalysisDocument) 
         return None;
     }
     let solution = of.solution().ok()?;
-    let found = of.bounds(&solution, &Elasticity::default());
+    let found = of.bounds(solution, &Elasticity::default());
     let widest = open
         .filter(|id| found.has_one_free_component(*id))
         .filter_map(|id| {
@@ -262,7 +293,7 @@ fn name(of: &ConfigurationAnalysis<'_>, id: ConstraintId) -> String {
 }
 
 /// Reads the options; `None` if no bounds are requested.
-pub(super) fn elasticity(
+fn elasticity(
     asked: &Analyze,
     of: &ConfigurationAnalysis<'_>,
 ) -> Result<Option<Elasticity>, Refusal> {
@@ -276,17 +307,8 @@ pub(super) fn elasticity(
     crate::elasticity::elasticity(&wanted, of.mechanism.layout(), &named).map(Some)
 }
 
-/// Returns the bounds of a number, or the range that is reached if not all sets were examined.
-fn split(bounds: &ElasticBounds, layout: &Layout) -> (Option<BoundsOfNumber>, Option<[f64; 2]>) {
-    if bounds.complete {
-        (Some(BoundsOfNumber::new(bounds, layout)), None)
-    } else {
-        (None, Some([bounds.lowest, bounds.highest]))
-    }
-}
-
 fn is_reached(component: &ComponentDocument) -> bool {
-    component.reached_at_least.is_some()
+    component.elastic.reached_at_least.is_some()
 }
 
 /// Adds the bounds of all reactions that are not unique.
@@ -319,9 +341,9 @@ fn of_reactions(
                 Ok(bounds) => {
                     let is_torque = space.load_unit(component.name) == Some("N·m");
                     has_moment |= is_torque && component.verdict.verdict != "unique";
-                    if let Some((own, reached)) = bounds.map(|b| split(&b, layout)) {
-                        answer.complete &= reached.is_none();
-                        (component.bounds, component.reached_at_least) = (own, reached);
+                    if let Some(bounds) = bounds {
+                        answer.complete &= bounds.complete;
+                        component.elastic = RangeDocument::new(&bounds, layout);
                     }
                 }
                 Err(e) => {

@@ -109,7 +109,7 @@ fn ways(found: &MakeUniqueDocument, most: usize) -> String {
     let more = found.ways.len() - texts.len();
     match (texts.as_slice(), found.complete) {
         ([], true) => "no set of the allowed rows makes it unique".to_owned(),
-        ([], false) => "no way was found among the sets that were tried".to_owned(),
+        ([], false) => "none of the examined sets makes it unique".to_owned(),
         (texts, _) if more == 0 => texts.join("; or "),
         (texts, _) => format!(
             "{} ({more} other {})",

@@ -9,7 +9,6 @@ use rank::{DeletionError, Limits};
 use solvability::{DeletableRows, EliminationError, State, Verdict};
 
 use super::additions::ADDITIONS;
-use super::bounds;
 use super::deletions::HINTS;
 use super::options::Analyze;
 use super::remedies;
@@ -87,8 +86,8 @@ pub(super) fn of(
 pub(super) struct Hints {
     /// For the reactions that are not unique, the deletions that would make them unique.
     pub(super) ways: Vec<MakeUniqueDocument>,
-    /// Bounds of reactions whose part leaves one load component undetermined.
-    pub(super) bounds: Option<String>,
+    /// Sentences of the optional parts.
+    pub(super) sentences: Vec<String>,
 }
 
 /// Computes the results that only the text contains.
@@ -102,7 +101,10 @@ pub(super) fn hints(
     }
     Ok(Hints {
         ways: ways(configuration, document)?,
-        bounds: bounds::in_one_line(configuration, document),
+        sentences: ADDITIONS
+            .iter()
+            .filter_map(|addition| addition.sentence(configuration, document))
+            .collect(),
     })
 }
 

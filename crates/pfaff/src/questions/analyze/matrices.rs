@@ -5,7 +5,7 @@ mod answer;
 use std::iter;
 
 use model::System;
-use report::{Table, TableError};
+use report::{TableError, matrix_table};
 use solvability::ONE_PART;
 
 pub use answer::{MatricesDocument, MatrixRowDocument};
@@ -90,37 +90,25 @@ impl Addition for Matrices {
             return Ok(Vec::new());
         };
         let [phi_q, psi] = [PHI_Q, PSI].map(|kind| matrices.rows_of(kind));
-        let all: Vec<_> = phi_q.iter().chain(&psi).cloned().collect();
         let columns = &matrices.columns;
+        let [phi_q, psi] = [&phi_q, &psi].map(|rows| rows.iter().map(|(label, row)| (label, *row)));
+        let all = phi_q.clone().chain(psi.clone());
         let mut files = vec![
-            ("phi_q.csv", written("phi_q", columns, &phi_q)?),
-            ("psi.csv", written("psi", columns, &psi)?),
-            ("c.csv", written("c", columns, &all)?),
+            ("phi_q.csv", matrix_table("phi_q", columns, phi_q)?),
+            ("psi.csv", matrix_table("psi", columns, psi)?),
+            ("c.csv", matrix_table("c", columns, all)?),
         ];
         if let Some(gamma) = &matrices.gamma {
             let labels = matrices.rows.iter().map(MatrixRowDocument::label);
-            let rows: Vec<_> = labels.zip(gamma.chunks(1)).collect();
-            files.push(("gamma.csv", written("row", &["gamma".to_owned()], &rows)?));
+            let labels: Vec<String> = labels.collect();
+            let rows = labels.iter().zip(gamma.chunks(1));
+            files.push((
+                "gamma.csv",
+                matrix_table("row", &["gamma".to_owned()], rows)?,
+            ));
         }
         Ok(files)
     }
-}
-
-/// Writes a matrix as CSV with the names of its rows and columns.
-fn written(
-    name: &'static str,
-    columns: &[String],
-    rows: &[(String, &[f64])],
-) -> Result<Vec<u8>, TableError> {
-    let header: Vec<String> = iter::once(name.to_owned())
-        .chain(columns.iter().cloned())
-        .collect();
-    let mut table = Table::new(name, Vec::new(), &header)?;
-    for (label, row) in rows {
-        let numbers = row.iter().map(f64::to_string);
-        table.record(iter::once(label.clone()).chain(numbers).collect::<Vec<_>>())?;
-    }
-    table.finish()
 }
 
 /// Splits the columns into ranges that fit on a page.

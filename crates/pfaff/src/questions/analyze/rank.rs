@@ -2,10 +2,11 @@
 
 use crate::documents::AnalysisDocument;
 use crate::documents::{PartsDocument, ReactionDocument};
+use model::SpaceKind;
 use model::words::rough;
 use solvability::ONE_PART;
 
-use crate::words::{Block, count, grouped};
+use crate::words::{Block, Cell, count, grouped};
 
 /// The text names a row of a near dependence if its weight exceeds this fraction of the largest
 /// weight.
@@ -13,7 +14,7 @@ const NAMED: f64 = 0.1;
 
 /// Describes the rank, its proof, and whether the rank is the same at other configurations.
 pub(super) fn of(d: &AnalysisDocument) -> Vec<Block> {
-    let mut blocks = ranks(d);
+    let mut blocks = vec![kinds(d)];
     let mut say = |text: String| blocks.push(Block::after("  ", text));
     say(match d.ranks.parts {
         Some(parts) => of_parts(d, parts),
@@ -39,6 +40,7 @@ pub(super) fn of(d: &AnalysisDocument) -> Vec<Block> {
     blocks.extend(prevented.map(|text| Block::after("  ", text)));
     let continuation = d.answers.continuation.iter();
     blocks.extend(continuation.map(|c| Block::after("  ", &c.text)));
+    blocks.extend(velocities(d));
     blocks
 }
 
@@ -52,32 +54,46 @@ fn of_parts(d: &AnalysisDocument, parts: PartsDocument) -> String {
         Some(reason) => format!("UNDECIDED in one part: {reason}"),
         None if e.certified => "the rank of each part is certified".to_owned(),
         None => format!(
-            "decided by a clear gap in double precision, not all proved: smallest σ_r = {}",
+            "decided by a clear gap in double precision, not proved for all parts: smallest σ_r = {}",
             rough(e.sigma_r)
         ),
     };
     lead + &said
 }
 
-/// Describes the ranks with the drives, and without them if these differ.
-fn ranks(d: &AnalysisDocument) -> Vec<Block> {
-    let ranks = &d.ranks;
-    let mut out = Vec::new();
-    let (holonomic, nonholonomic) = (ranks.rank_holonomic, ranks.rank_nonholonomic);
-    out.push(Block::detail(
+/// Describes the ranks of the holonomic and of the nonholonomic rows.
+fn kinds(d: &AnalysisDocument) -> Block {
+    let (holonomic, nonholonomic) = (d.ranks.rank_holonomic, d.ranks.rank_nonholonomic);
+    Block::detail(
         "  ",
         format!(
             "holonomic rows alone: rank {holonomic}; nonholonomic rows alone: rank {nonholonomic}"
         ),
-    ));
-    let without = ranks.freedoms.without_drives.as_ref();
-    if let Some(without) = without.filter(|without| without.redundancy != ranks.redundancy) {
-        let (rank, redundancy) = (without.rank, without.redundancy);
-        let whose = without.possessive();
-        let text = format!("without {whose}: rank {rank}, redundancy {redundancy}");
-        out.push(Block::after("  ", text));
+    )
+}
+
+/// Lists the velocities of the free motions, in the order of their sentences.
+fn velocities(d: &AnalysisDocument) -> Option<Block> {
+    let space_of = |v: &[f64]| {
+        let spaces = [SpaceKind::Plane, SpaceKind::Space3];
+        spaces.into_iter().find(|space| space.n_v() == v.len())
+    };
+    let motions = d.ranks.freedoms.motions();
+    let motions: Vec<_> = motions.iter().flat_map(|(_, m)| &m.velocities).collect();
+    let first = motions.iter().find_map(|bodies| bodies.0.first());
+    let space = space_of(&first?.1)?;
+    let names = space.velocities();
+    let mut table = vec![["motion", "body"].map(Cell::from).to_vec()];
+    table[0].extend(names.iter().map(|name| Cell::from(*name)));
+    for (k, bodies) in motions.iter().enumerate() {
+        for (body, v) in &bodies.0 {
+            let mut cells = vec![(k + 1).to_string().into(), body.as_str().into()];
+            let numbers = names.iter().zip(v);
+            cells.extend(numbers.map(|(name, x)| Cell::quantity(*x, space.column_unit(name))));
+            table.push(cells);
+        }
     }
-    out
+    Some(Block::Detail(Box::new(Block::Table(table))))
 }
 
 fn proof(d: &AnalysisDocument) -> String {

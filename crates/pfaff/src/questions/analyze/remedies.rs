@@ -2,13 +2,16 @@
 //! written to the text of the scene, read and analysed.
 
 mod answer;
+mod coupled_search;
 mod types;
+
+use std::iter;
 
 use model::words::estimate;
 use model::{ConstraintId, System};
 use report::ByName;
 use scene::{RetypedJoint, retyped};
-use solvability::ReplacedJoints;
+use solvability::CoupledJoints;
 
 pub use answer::{RemedyDocument, ReplacedJointDocument};
 
@@ -20,6 +23,7 @@ use crate::error::StudyError;
 use crate::start::Start;
 use crate::study::Study;
 use crate::words::{Block, grouped, marked};
+use coupled_search::CoupledSearch;
 use types::{OtherType, other_types};
 
 /// Largest number of rows of a mechanism for which remedies are computed without a request.
@@ -46,7 +50,7 @@ pub(super) fn add(
     if let Some(tolerance) = document.data.freeing_tolerance() {
         let stated = read(start, &[]).and_then(|scene| scene.stating(tolerance).ok());
         if let Some(mut freed) = stated
-            && let Ok(freed) = freed.analyse(None)
+            && let Ok(freed) = freed.analyse_configuration()
         {
             let mobility = freed.analysis.mobility();
             let accuracy = estimate(tolerance.length.unwrap_or_default(), "m");
@@ -93,69 +97,98 @@ impl Search<'_, '_, '_> {
     /// Returns one remedy for each set of coupled joints, if there is one. `motion` describes the
     /// motion of the analysed mechanism.
     fn remedies(&self, motion: &str) -> Result<Vec<RemedyDocument>, StudyError> {
-        let (layout, analysis) = (self.of.mechanism.layout(), &self.of.analysis);
+        let analysis = &self.of.analysis;
         let is_regular = analysis.decision.is_decided() && analysis.nearly_redundant.is_none();
         let Some(search) = self.of.replacements()?.filter(|_| is_regular) else {
             return Ok(Vec::new());
         };
-        let reactions = analysis.reactions.iter();
-        let open = reactions.filter(|r| !r.wrench.verdict.is_unique());
-        let types =
-            open.map(|r| other_types(self.of, self.start.registry, (r.id, &layout.groups[r.id.0])));
-        let types: Vec<Vec<OtherType>> = types.collect::<Result<_, _>>()?;
-        let (mut others, mut weaker) = (Vec::new(), Vec::new());
-        for k in 0..types.iter().map(Vec::len).max().unwrap_or(0) {
-            // One reading of the text serves one type of each joint.
-            let tried: Vec<&OtherType> = types.iter().filter_map(|own| own.get(k)).collect();
-            self.compare(&tried, &mut |scene, tried| {
-                let ids: Vec<ConstraintId> = tried.iter().map(|other| other.id).collect();
-                for joint in search.weaker_joints(&scene.mechanism, &ids) {
-                    let other = tried.iter().find(|other| other.id == joint.joint);
-                    if let Some(&other) = other {
-                        weaker.push((joint, other.cost));
-                        others.push(other);
+        let coupled = search.coupled();
+        let types = coupled.iter().map(|set| self.types(set));
+        let types: Vec<Vec<Vec<OtherType>>> = types.collect();
+        let sets = coupled.iter().zip(&types);
+        let mut searches: Vec<CoupledSearch> = sets
+            .map(|(set, types)| CoupledSearch::new(set, types))
+            .collect();
+        let mut alone = Vec::new();
+        for round in 0.. {
+            let open = searches.iter().filter(|own| own.remedy.is_none());
+            let tried: Vec<&OtherType> = open.flat_map(|own| own.tried(round)).collect();
+            if tried.is_empty() {
+                break;
+            }
+            // One reading of the text serves one type of each joint, unless the reader rejected
+            // another type of the joint.
+            let is_together = |other: &&OtherType| !alone.contains(&other.id);
+            let (together, others): (Vec<_>, Vec<_>) = tried.into_iter().partition(is_together);
+            let sets = iter::once(&together[..]).chain(others.chunks(1));
+            for set in sets.filter(|set| !set.is_empty()) {
+                for (scene, tried) in self.compare(set, &mut alone) {
+                    let ids: Vec<ConstraintId> = tried.iter().map(|other| other.id).collect();
+                    for joint in search.weaker_joints(&scene.mechanism, &ids) {
+                        let sets = searches.iter_mut();
+                        sets.for_each(|own| own.add(&joint, tried));
                     }
                 }
-            });
+            }
+            for own in &mut searches {
+                if own.remedy.is_none() {
+                    let below = own.least_cost(round + 1);
+                    let ways = search.cheapest(own.set, &own.weaker, below);
+                    let is_verified = |way: &[&OtherType]| self.is_verified(own.set, way);
+                    if let Some(way) = own.verified(ways, is_verified) {
+                        own.remedy = Some(self.remedy(own.set, &way, motion));
+                    }
+                }
+            }
         }
-        let remedy = |found: &ReplacedJoints| {
-            let mut ways = found.ways.iter().map(|way| {
-                let mut way: Vec<&OtherType> = way.iter().map(|&k| others[k]).collect();
-                way.sort_by_key(|other| other.id);
-                way
-            });
-            let verified = ways.find(|way| self.is_verified(found, way))?;
-            Some(self.remedy(found, &verified, motion))
-        };
-        let found = search.cheapest(&weaker);
-        Ok(found.iter().filter_map(remedy).collect())
+        let remedies = searches.into_iter().filter_map(|own| own.remedy);
+        Ok(remedies.collect())
     }
 
-    /// Calls a function with the scene that has these types. If it is invalid, for example because
-    /// a drive needs a joint coordinate, smaller sets of types are tried.
-    fn compare<'t>(
+    /// Returns the other types of each joint of a set, the cheapest first.
+    fn types(&self, set: &CoupledJoints) -> Vec<Vec<OtherType>> {
+        let (mechanism, analysis) = (self.of.mechanism, &self.of.analysis);
+        let mut s = mechanism.scratch();
+        mechanism.pose(analysis.time, &self.of.state.q, &mut s);
+        let (layout, reactions) = (mechanism.layout(), &analysis.reactions);
+        let open = set.joints.iter();
+        let open = open.filter(|id| !reactions[id.0].wrench.verdict.is_unique());
+        let types = open.map(|id| {
+            let joint = (*id, &layout.groups[id.0]);
+            let of = mechanism.reactions(&s);
+            other_types(of, self.start.registry, joint, set.redundancy)
+        });
+        types.collect()
+    }
+
+    /// Returns the scene that has these types. If it is invalid, for example because a drive needs
+    /// a joint coordinate, the result contains scenes with fewer of the types, and the joints with
+    /// invalid types are added to a list.
+    fn compare<'a, 't>(
         &self,
-        tried: &[&'t OtherType],
-        add: &mut impl FnMut(&AssembledScene, &[&'t OtherType]),
-    ) {
-        match read(self.start, tried) {
-            Some(scene) => add(&scene, tried),
-            None if tried.len() > 1 => {
-                let (first, second) = tried.split_at(tried.len() / 2);
-                self.compare(first, add);
-                self.compare(second, add);
-            }
-            None => {}
+        tried: &'a [&'t OtherType],
+        invalid: &mut Vec<ConstraintId>,
+    ) -> Vec<(AssembledScene, &'a [&'t OtherType])> {
+        if let Some(scene) = read(self.start, tried) {
+            return vec![(scene, tried)];
         }
+        if let [other] = tried {
+            invalid.push(other.id);
+            return Vec::new();
+        }
+        let (first, second) = tried.split_at(tried.len() / 2);
+        let mut scenes = self.compare(first, invalid);
+        scenes.extend(self.compare(second, invalid));
+        scenes
     }
 
     /// Whether the coupled reactions are unique in the scene with these joints, and the mobility is
     /// the same.
-    fn is_verified(&self, found: &ReplacedJoints, way: &[&OtherType]) -> bool {
+    fn is_verified(&self, set: &CoupledJoints, way: &[&OtherType]) -> bool {
         let Some(mut changed) = read(self.start, way) else {
             return false;
         };
-        let Ok(changed) = changed.analyse(None) else {
+        let Ok(changed) = changed.analyse_configuration() else {
             return false;
         };
         let (old, new) = (&self.of.analysis, &changed.analysis);
@@ -163,11 +196,11 @@ impl Search<'_, '_, '_> {
         new.decision.is_decided()
             && new.nearly_redundant.is_none()
             && new.mobility() == old.mobility()
-            && new.decision.redundancy + found.redundancy == old.decision.redundancy
-            && found.coupled.iter().all(is_unique)
+            && new.decision.redundancy + set.redundancy == old.decision.redundancy
+            && set.joints.iter().all(is_unique)
     }
 
-    fn remedy(&self, found: &ReplacedJoints, way: &[&OtherType], motion: &str) -> RemedyDocument {
+    fn remedy(&self, set: &CoupledJoints, way: &[&OtherType], motion: &str) -> RemedyDocument {
         let layout = self.of.mechanism.layout();
         let name = |id: &ConstraintId| layout.groups[id.0].name.clone();
         let replace = way.iter().map(|other| {
@@ -197,8 +230,8 @@ impl Search<'_, '_, '_> {
                 _ => format!("each of {} {kind}", and(&names)),
             });
         let joints: Vec<String> = joints.collect();
-        let reactions: Vec<String> = found.coupled.iter().map(name).collect();
-        let unique = match self.of.analysis.decision.redundancy - found.redundancy {
+        let reactions: Vec<String> = set.joints.iter().map(name).collect();
+        let unique = match self.of.analysis.decision.redundancy - set.redundancy {
             0 => "all reactions are unique".to_owned(),
             _ => format!("the reactions of {} are unique", and(&reactions)),
         };

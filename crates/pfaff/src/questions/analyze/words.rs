@@ -30,10 +30,12 @@ pub(super) fn of(d: &AnalysisDocument, hints: &Hints) -> Vec<Block> {
         "{} at t = {} s",
         d.configuration.scene, d.configuration.time
     ))];
-    out.extend(if has_lines {
-        vec![table(d)]
-    } else {
-        counts::verdicts(d)
+    out.extend(match d.reactions.as_slice() {
+        [] => vec![Block::sentence(
+            "no joint or drive, so there are no reactions",
+        )],
+        _ if has_lines => vec![table(d), margins()],
+        _ => counts::verdicts(d),
     });
     out.push(Block::Gap);
     let fragile = fragile(d);
@@ -49,17 +51,14 @@ pub(super) fn of(d: &AnalysisDocument, hints: &Hints) -> Vec<Block> {
     out.extend(ADDITIONS.iter().flat_map(|addition| addition.words(d)));
     out.extend(centres(d));
     out.extend(why(d));
-    let bounds = hints.bounds.iter().map(|bounds| {
-        Block::sentence(format!(
-            "for any stiffness (`--bounds` prints all): {bounds}"
-        ))
-    });
-    let beyond: Vec<Block> = bounds.chain(remedies::words(d)).collect();
+    let sentences = hints.sentences.iter().map(Block::sentence);
+    let beyond: Vec<Block> = sentences.chain(remedies::words(d)).collect();
     if let Some(Block::Sentence { .. }) = beyond.first() {
         out.push(Block::Gap);
     }
     out.extend(beyond);
     out.extend(deletions::of(d, &hints.ways));
+    out.extend(stresses(d));
     out.extend(numbers::of(d));
     out.extend(d.answers.along.iter().flat_map(along::of));
     let is_new = |warning: &&String| {
@@ -94,21 +93,36 @@ fn size(d: &AnalysisDocument) -> Block {
     let bodies = count(c.bodies, "body", "bodies");
     let coordinates = count(c.coordinates, "coordinate", "coordinates");
     let rows = count_of_rows(c.holonomic_rows, c.nonholonomic_rows);
+    let without = ranks.freedoms.without_drives.as_ref();
+    let rank = match without {
+        None => ranks.rank.to_string(),
+        Some(without) => format!(
+            "{} ({} without {})",
+            ranks.rank,
+            without.rank,
+            without.possessive()
+        ),
+    };
+    let redundancy = match without {
+        Some(without) if without.redundancy != ranks.redundancy => {
+            format!("{} ({} without)", ranks.redundancy, without.redundancy)
+        }
+        _ => ranks.redundancy.to_string(),
+    };
     Block::sentence(format!(
-        "{bodies}, {coordinates}{velocities}, {rows}: rank {}, redundancy {}, {}",
-        ranks.rank,
-        ranks.redundancy,
+        "{bodies}, {coordinates}{velocities}, {rows}: rank {rank}, redundancy {redundancy}, {}",
         ranks.freedoms.summary(ranks.mobility),
     ))
 }
 
 /// Lists the reaction components whose verdict at this configuration differs from their verdict at
-/// most other configurations.
+/// most other configurations, with both verdicts.
 fn elsewhere(d: &AnalysisDocument) -> impl Iterator<Item = Block> {
     let differing = d.reactions.iter().flat_map(|r| r.differing());
-    let verdicts = grouped(differing.map(|(name, generic)| (generic, name)));
-    verdicts.into_iter().map(|(generic, names)| {
-        let lead = format!("{} elsewhere: ", spoken(generic));
+    let verdicts = grouped(differing.map(|(name, verdicts)| (verdicts, name)));
+    verdicts.into_iter().map(|([here, generic], names)| {
+        let [here, generic] = [here, generic].map(spoken);
+        let lead = format!("{here} here, {generic} elsewhere: ");
         Block::after(lead, names.join(", "))
     })
 }
@@ -117,7 +131,7 @@ fn elsewhere(d: &AnalysisDocument) -> impl Iterator<Item = Block> {
 fn table(d: &AnalysisDocument) -> Block {
     let alike = grouped(d.reactions.iter().map(|r| {
         let components = match r.wrench.verdict {
-            "unique" => fragile_components(r),
+            "unique" => of_unique(r),
             _ => each(&r.components) + &oblique(r),
         };
         ([r.kind.to_owned(), r.said(), components], r)
@@ -165,17 +179,6 @@ fn ranges(rows: &[usize]) -> String {
     ranges.collect::<Vec<_>>().join(" and ")
 }
 
-/// Lists the ill-determined components of a unique reaction whose other components are well
-/// determined.
-fn fragile_components(r: &ReactionDocument) -> String {
-    let names = r.fragile_names();
-    if names == [r.name.clone()] {
-        return String::new();
-    }
-    let fragile = r.components.iter().filter(|c| c.data.fragile).cloned();
-    each(&fragile.collect::<Vec<_>>())
-}
-
 /// Lists the data on which ill-determined reactions depend.
 fn fragile(d: &AnalysisDocument) -> Vec<Block> {
     let sentences = &d.fragile;
@@ -202,6 +205,23 @@ fn margin(v: &VerdictDocument) -> String {
         }
         _ => rough(v.margin),
     }
+}
+
+/// Lists the components of a unique reaction; its verdict and its margin already state that it is
+/// unique only within a tolerance.
+fn of_unique(r: &ReactionDocument) -> String {
+    let mut components = r.components.clone();
+    for component in &mut components {
+        component.verdict.within_tolerance = false;
+    }
+    each(&components)
+}
+
+/// Explains the margins of the table.
+fn margins() -> Block {
+    let meaning = "the part of a self-stress that acts in the joint or drive, for scaled rows; ~0: zero within rounding";
+    let legend = Block::Legend("margin".to_owned(), meaning.to_owned());
+    Block::Detail(Box::new(legend))
 }
 
 /// Lists unique directions that are not parallel to an axis, because the components do not show
@@ -330,14 +350,31 @@ fn why(d: &AnalysisDocument) -> Vec<Block> {
         let more = reasons.len() - REASONS;
         out.push(item(&format!("and {more} more (`--json` prints all)")));
     }
-    let stresses: usize = large.iter().map(|m| m.redundancy).sum();
-    if stresses > 0 {
-        out.push(Block::detail(
-            "- ",
-            format!(
-                "these joints have {stresses} independent self-stresses (`--json` prints them)"
-            ),
-        ));
+    out
+}
+
+/// Lists the loads of each self-stress.
+fn stresses(d: &AnalysisDocument) -> Vec<Block> {
+    let of = |k: usize| {
+        let loads = d.reactions.iter().flat_map(move |r| r.loads_in(k));
+        let loads = loads.map(|(name, value)| {
+            let unit = name.rsplit('.').next().map_or("", load_unit);
+            format!("`{name}` = {}", quantity(value, unit))
+        });
+        loads.collect::<Vec<_>>().join(", ")
+    };
+    let all = (0..d.reasons.dependencies.len()).map(of);
+    let mut out: Vec<Block> = all
+        .filter(|loads| !loads.is_empty())
+        .map(|loads| Block::detail("- ", loads))
+        .collect();
+    if !out.is_empty() {
+        let heading =
+            "Self-stresses (loads on the first body of each joint, about its reference point):";
+        out.insert(
+            0,
+            Block::Detail(Box::new(Block::Heading(heading.to_owned()))),
+        );
     }
     out
 }

@@ -7,6 +7,7 @@ use scene::LoadCase;
 use serde::Serialize;
 
 use crate::documents::{ExtremeDocument, LoadPeak, RunDocument};
+use crate::error::OPENING;
 use crate::question::Answer;
 use crate::questions::simulate::SimulateAnswer;
 use crate::refusal::Refusal;
@@ -59,11 +60,12 @@ pub struct CasesAnswer {
 pub struct CaseDocument {
     /// Name of the case.
     pub name: String,
-    /// Its values, which replace those of the scene.
+    /// Values of the load case, which replace values of the scene.
     pub set: Vec<String>,
     /// Name of the directory with the files of its run.
     pub directory: String,
-    /// `done`, `stopped`, `refused` or `interrupted`.
+    /// `done`, `opened` (the run ended when its one-sided joints opened), `stopped`, `refused` or
+    /// `interrupted`.
     pub status: &'static str,
     /// Reason why the case is not done.
     pub error: Option<String>,
@@ -143,6 +145,9 @@ impl CasesAnswer {
                 ("interrupted", run.document.error.clone())
             }
             Ok(_) => ("done", None),
+            Err(refusal) if refusal.code() == Some(OPENING) => {
+                ("opened", Some(refusal.document().error))
+            }
             Err(refusal @ Refusal::Stopped(..)) => ("stopped", Some(refusal.document().error)),
             Err(refusal) => ("refused", Some(refusal.document().error)),
         };
@@ -283,7 +288,9 @@ fn warnings(run: &SimulateAnswer) -> Vec<String> {
     let of = |block| match block {
         Block::Sentence { lead, text } => {
             let text = lead + &text;
-            text.strip_prefix("warning: ").map(str::to_owned)
+            // A code in square brackets may follow.
+            let (code, text) = text.strip_prefix("warning")?.split_once(": ")?;
+            (code.is_empty() || code.starts_with('[')).then(|| text.to_owned())
         }
         _ => None,
     };

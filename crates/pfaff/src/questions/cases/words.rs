@@ -11,7 +11,8 @@ const COLUMNS: usize = 5;
 pub(super) fn of(answer: &CasesAnswer) -> Vec<Block> {
     let cases = &answer.cases;
     let with = |status: &str| cases.iter().filter(|case| case.status == status).count();
-    let counts = ["done", "stopped", "refused", "interrupted"].map(|status| (with(status), status));
+    let counts = ["done", "opened", "stopped", "refused", "interrupted"];
+    let counts = counts.map(|status| (with(status), status));
     let counts = counts.iter().filter(|(n, _)| *n > 0);
     let counts: Vec<String> = counts.map(|(n, status)| format!("{n} {status}")).collect();
     let mut out = vec![Block::sentence(format!(

@@ -80,6 +80,27 @@ impl CheckAnswer {
         }
     }
 
+    /// Adds a warning about the start, with its positions if the scene has a text.
+    pub(super) fn warned(self, place: Option<Diagnostic>, text: &impl ToString) -> Self {
+        let Self {
+            mut warnings,
+            mut problems,
+            ..
+        } = self;
+        match place {
+            Some(place) => {
+                warnings.insert(problems.len(), place.sentence());
+                problems.push(place);
+            }
+            None => warnings.push(text.to_string()),
+        }
+        Self {
+            warnings,
+            problems,
+            ..self
+        }
+    }
+
     /// Adds the possible motions of the mechanism.
     pub(super) fn moving(self, freedoms: &Freedoms, mechanism: &Mechanism) -> Self {
         let document = FreedomsDocument::new(freedoms, mechanism);

@@ -7,8 +7,8 @@ use crate::documents::{DependencyDocument, ExtremeDocument};
 use super::answer::{DiffAnswer, DiffLoad, DiffMotion, DiffReaction};
 use crate::words::{Block, Cell};
 
-/// Peaks that differ by less than this fraction of the larger one are not listed: they agree in
-/// four digits, which is what tables show.
+/// Peaks that differ by less than this fraction of the larger one are not listed: they agree in the
+/// four digits that tables show.
 const VISIBLE: f64 = 5e-5;
 
 /// Number of bodies whose motion is listed, and of loads; the document contains all of them.
@@ -132,7 +132,7 @@ fn moved(motion: &DiffMotion) -> Vec<Block> {
     if bodies.len() > LISTED {
         let more = bodies.len() - LISTED;
         blocks.push(Block::sentence(format!(
-            "and {more} more, none farther apart"
+            "and {more} more with equal or smaller differences"
         )));
     }
     blocks

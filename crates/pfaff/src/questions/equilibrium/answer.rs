@@ -116,7 +116,7 @@ impl ReactionAtRest {
 
 impl EquilibriumAnswer {
     /// Builds the answer of a study, with its reactions at the equilibrium while functions of time
-    /// are held constant, or the reason why there are no reactions.
+    /// have constant values, or the reason why there are no reactions.
     pub(super) fn new(
         study: &Study,
         x: &Equilibrium,

@@ -17,7 +17,7 @@ pub(super) fn of(d: &EquilibriumAnswer) -> Vec<Block> {
         ));
     }
     if d.depends_on_way {
-        say("nonholonomic rows restrict the path, not the position: other paths lead to other equilibria".to_owned());
+        say("nonholonomic rows restrict the path, not the position: other paths have other equilibria".to_owned());
     }
     if !d.held.is_empty() {
         let held = marked(&d.held);
@@ -26,7 +26,7 @@ pub(super) fn of(d: &EquilibriumAnswer) -> Vec<Block> {
     if !d.moving_on.is_empty() {
         let names = marked(&d.moving_on);
         say(format!(
-            "a simulation from here starts with other forces, because these functions of time accelerate: {names}"
+            "a simulation from this position starts with other forces, because these functions of time have accelerations: {names}"
         ));
     }
     blocks.push(bodies(d));
@@ -50,7 +50,7 @@ fn found(d: &EquilibriumAnswer) -> String {
     let balance = match d.residual {
         0.0 => "forces balance".to_owned(),
         left => format!(
-            "forces balance to {left} of the largest force",
+            "the remaining force is {left} of the largest force",
             left = rough(left)
         ),
     };

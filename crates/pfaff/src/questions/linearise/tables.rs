@@ -1,13 +1,10 @@
 //! Tables of a linearised motion: each matrix, and the modes.
 
-use std::iter;
-
-use report::{Table, TableError};
+use report::{Table, TableError, matrix_table};
 
 use super::answer::LineariseAnswer;
 
-/// Returns matrices with the names of their files. Each file has a header line with a letter and
-/// the names of the columns, then the name of each row and its numbers.
+/// Returns matrices with the names of their files. The name of each matrix is a letter.
 pub(super) fn matrices(of: &LineariseAnswer) -> Result<Vec<(&'static str, Vec<u8>)>, TableError> {
     let states: Vec<String> = of.states.iter().map(|state| state.name.clone()).collect();
     let inputs = of.inputs.iter().map(|i| format!("{}.{}", i.name, i.what));
@@ -24,16 +21,9 @@ pub(super) fn matrices(of: &LineariseAnswer) -> Result<Vec<(&'static str, Vec<u8
             ("k.csv", "K", &second.stiffness, positions),
         ]);
     }
-    let written = all.into_iter().map(|(name, letter, matrix, columns)| {
-        let header: Vec<String> = iter::once(letter.to_owned())
-            .chain(columns.iter().cloned())
-            .collect();
-        let mut table = Table::new(name, Vec::new(), &header)?;
-        for (state, row) in states.iter().zip(matrix) {
-            let numbers = row.iter().map(f64::to_string);
-            table.record(iter::once(state.clone()).chain(numbers).collect::<Vec<_>>())?;
-        }
-        Ok((name, table.finish()?))
+    let written = all.into_iter().map(|(file, letter, matrix, columns)| {
+        let rows = states.iter().zip(matrix.iter().map(Vec::as_slice));
+        Ok((file, matrix_table(letter, columns, rows)?))
     });
     written.collect()
 }

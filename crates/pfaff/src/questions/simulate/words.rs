@@ -9,6 +9,7 @@ use model::words::{listed, rough, rounded};
 
 use super::SimulateAnswer;
 use crate::bounds_of_run::largest_loads;
+use crate::pulls::{PullTimes, PullWarning};
 use crate::words::{Block, count};
 
 pub(super) fn of(answer: &SimulateAnswer) -> Vec<Block> {
@@ -76,9 +77,12 @@ pub(super) fn of(answer: &SimulateAnswer) -> Vec<Block> {
     let fragile: Vec<&str> = fragile.map(|(name, _)| name.as_str()).collect();
     if !fragile.is_empty() {
         say(format!(
-            "warning: unique but ill-determined (fragile) at the start: {}. Their values depend on the last digits of the data; summary.json names these data.",
+            "warning: unique but ill-determined (fragile) at the start: {}. The values of these reactions depend on the last digits of the data; summary.json names these data.",
             listed(&fragile),
         ));
+    }
+    if let Some(warning) = PullWarning::new(&d.pulls, PullTimes::Run) {
+        out.push(Block::after(PullWarning::lead(), warning.to_string()));
     }
     out.extend(open(d).into_iter().map(Block::sentence));
     for (name, table) in &d.bodies.0 {
@@ -94,7 +98,7 @@ pub(super) fn of(answer: &SimulateAnswer) -> Vec<Block> {
         } else if *rows_left_out > 0 {
             let rows = count(*rows_left_out, "row", "rows");
             out.push(Block::sentence(format!(
-                "{file} leaves out {rows} at which a reaction on `{name}` is not determined."
+                "{file} omits {rows} at which a reaction on `{name}` is not determined."
             )));
         }
     }

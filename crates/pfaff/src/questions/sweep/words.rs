@@ -26,17 +26,18 @@ pub(super) fn of(answer: &SweepAnswer) -> Vec<Block> {
             )
         }
     };
-    of_all.push_str(&format!(
-        ": {} done, {} stopped, {} refused",
-        d.done, d.stopped, d.refused
-    ));
+    of_all.push_str(&format!(": {} done", d.done));
+    if d.opened > 0 {
+        of_all.push_str(&format!(", {} ended when contacts opened", d.opened));
+    }
+    of_all.push_str(&format!(", {} stopped, {} rejected", d.stopped, d.refused));
     if d.crashed > 0 {
         of_all.push_str(&format!(", {} crashed", d.crashed));
     }
     let mut blocks = vec![Block::sentence(of_all)];
     if d.repeated > 0 {
         let repeated = count(d.repeated as usize, "run was", "runs were");
-        let text = format!("{repeated} made twice, with the same results");
+        let text = format!("{repeated} performed twice, with the same results");
         blocks.push(Block::sentence(text));
     }
     match answer.end {
@@ -59,8 +60,7 @@ pub(super) fn of(answer: &SweepAnswer) -> Vec<Block> {
         && balance > TRUSTED_BALANCE
     {
         let text = format!(
-            "the energy balance of run {run} is off by {balance} of its largest kinetic energy: do not trust it, \
-             nor others above {TRUSTED_BALANCE:.0e} in the column `energy_balance`",
+            "the energy balance of run {run} is off by {balance} of its largest kinetic energy: do not trust runs with more than {TRUSTED_BALANCE:.0e} in the column `energy_balance`",
             balance = rough(balance)
         );
         blocks.push(Block::after("warning: ", text));
@@ -86,7 +86,7 @@ fn gaps(d: &SweepDocument, shards: Option<u64>) -> Vec<Block> {
                 }
                 options.join(", ")
             }
-            None => "the command without `--shard` makes what is missing".to_owned(),
+            None => "the command without `--shard` performs the missing runs".to_owned(),
         };
         Block::sentence(format!(
             "{} {runs} {} missing: {makers}",

@@ -57,9 +57,9 @@ fn bounds(d: &ToleranceDocument) -> Vec<Block> {
     known.sort_by(|a, b| size(&b.2).total_cmp(&size(&a.2)));
     if known.is_empty() {
         let words = match d.described.redundancy {
-            0 => "no bounds: no row is redundant as described",
+            0 => "no bounds: the described scene has no redundant row",
             _ => {
-                "no bounds: some samples have none, for example because too many joints are rigid; \
+                "no bounds: they do not exist for some samples, for example because too many joints are rigid; \
                  `analyze --bounds` prints the reason"
             }
         };

@@ -3,7 +3,6 @@
 use super::super::job::Keep;
 use super::super::make::TOGETHER;
 use super::*;
-use report::sweep::Extreme;
 
 /// A cart has two knife edges, whose longitudinal forces are not unique, and a pendulum.
 const CART: &str = r#"
@@ -104,8 +103,7 @@ fn cells(row: &SweepRow) -> Vec<u64> {
         motion.start_correction,
         motion.start_velocity_correction,
     ];
-    let extremes = motion.extremes.iter().flatten().flatten();
-    let extremes = extremes.flat_map(Extreme::cells);
+    let largest = (0..motion.peaks.len()).flat_map(|k| motion.largest(k));
     let counts = [
         motion.steps,
         motion.rejected,
@@ -117,7 +115,7 @@ fn cells(row: &SweepRow) -> Vec<u64> {
         motion.fragile,
     ];
     let numbers = numbers.into_iter().chain(motion.state.iter().copied());
-    let numbers = numbers.chain(extremes).map(f64::to_bits);
+    let numbers = numbers.chain(largest.flatten()).map(f64::to_bits);
     counts.into_iter().chain(numbers).collect()
 }
 
@@ -143,7 +141,7 @@ fn runs_made_together_are_those_made_alone() {
     for (scene, vary) in CASES {
         let sweep = sweep(&registry, scene, vary);
         let evaluation = sweep.evaluation();
-        assert!(evaluation.starts_with("on generated code"), "{evaluation}");
+        assert!(evaluation.starts_with("generated code"), "{evaluation}");
         let rows = made_together(&sweep);
         assert_eq!(rows.len() as u64, sweep.runs());
         for row in &rows {
@@ -170,8 +168,8 @@ fn runs_on_code_are_those_of_the_interpreter() {
             let (found, expected) = (found.expect("moved"), expected.expect("moved"));
             let state = found.state.iter().zip(&expected.state);
             let of = |motion: &SweepMotion| -> Vec<f64> {
-                let forces = motion.extremes.iter().flatten();
-                forces.map(|[force, _]| force.cells()[0]).collect()
+                let each = 0..motion.peaks.len();
+                each.map(|k| motion.largest(k)[0][0]).collect()
             };
             let (found_forces, expected_forces) = (of(found), of(expected));
             let forces = found_forces.iter().zip(&expected_forces);
@@ -214,7 +212,7 @@ fn runs_that_leave_their_code_end_as_interpreted_ones() {
     let registry = Registry::standard();
     let vary = &["body.coupler.mass=1:3:20", "body.first.mass=0.5:2:5"];
     let on_code = sweep(&registry, CRANKS, vary);
-    assert!(on_code.evaluation().starts_with("on generated code"));
+    assert!(on_code.evaluation().starts_with("generated code"));
     let interpreted = sweep(&registry, CRANKS, vary);
     let _ = interpreted.code.set(Err("for the test".to_owned()));
     let rows = made_together(&on_code);

@@ -102,7 +102,7 @@ fn find_boxes(group: &Group, found: &mut BTreeSet<char>) {
     }
 }
 
-/// The pixels as a file. They are opaque, because the page is white.
+/// The pixels as a file. All pixels are opaque, because the page is white.
 fn pack(picture: &Pixmap, scale: f64) -> Result<Vec<u8>, png::EncodingError> {
     let colours = picture.data().chunks_exact(4);
     let colours: Vec<u8> = colours.flat_map(|p| [p[0], p[1], p[2]]).collect();

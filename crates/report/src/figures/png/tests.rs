@@ -16,10 +16,13 @@ fn what_cannot_be_painted_says_what_can() {
     let refused = |size, scale| measure(size, scale).expect_err("too large").to_string();
     assert_eq!(
         refused([1000.0, 1000.0], Some(10.0)),
-        "the picture would have 10000 x 10000 pixels, the most are 25 million: take a scale up to 5"
+        "the picture would have 10000 x 10000 pixels, at most 25 million are supported: use a scale up to 5"
     );
     let endless = refused([1e3, 1e7], None);
-    assert!(endless.ends_with("25 million: take SVG"), "{endless}");
+    assert!(
+        endless.ends_with("25 million are supported: take SVG"),
+        "{endless}"
+    );
     for scale in [f64::NAN, f64::INFINITY, 0.0, -1.0, 0.09, 21.0] {
         let error = png("<svg/>", Some(scale)).expect_err("no scale");
         if cfg!(feature = "png") {

@@ -56,6 +56,19 @@ pub struct BoundsOfNumber {
     pub reached: [bool; 2],
 }
 
+/// The range of a number for joints of any stiffness: bounds, or a range that is reached.
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[non_exhaustive]
+pub struct RangeDocument {
+    /// Bounds for joints of any stiffness, if requested.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub bounds: Option<BoundsOfNumber>,
+    /// A range whose values some compliances give, if there are too many sets to examine all.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub reached_at_least: Option<[f64; 2]>,
+}
+
 /// The force or the moment of a joint or drive.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
@@ -99,9 +112,25 @@ impl BoundsDocument {
     }
 }
 
+impl RangeDocument {
+    /// Builds the document of the range of a number.
+    pub(super) fn new(range: &ElasticBounds, layout: &Layout) -> Self {
+        if range.complete {
+            Self {
+                bounds: Some(BoundsOfNumber::new(range, layout)),
+                reached_at_least: None,
+            }
+        } else {
+            Self {
+                bounds: None,
+                reached_at_least: Some([range.lowest, range.highest]),
+            }
+        }
+    }
+}
+
 impl BoundsOfNumber {
-    /// Builds the document of bounds.
-    pub(super) fn new(bounds: &ElasticBounds, layout: &Layout) -> Self {
+    fn new(bounds: &ElasticBounds, layout: &Layout) -> Self {
         let loads = |loads: &[ElasticLoad]| {
             let load = |load: &ElasticLoad| ElasticLoadDocument {
                 joint: layout.groups[load.reaction.0].name.clone(),

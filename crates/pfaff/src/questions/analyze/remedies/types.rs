@@ -4,11 +4,8 @@
 use joints::spec::{ConstraintSpec, Role, Shape};
 use model::reaction::ConstraintGroup;
 use model::words::rounded;
-use model::{ConstraintId, Frame, Registry, SpaceKind};
+use model::{ConstraintId, Frame, Reactions, Registry, SpaceKind};
 use scene::RetypedJoint;
-
-use crate::configuration::ConfigurationAnalysis;
-use crate::error::StudyError;
 
 /// Cost of a joint of another type.
 const CHANGED: usize = 1;
@@ -53,17 +50,19 @@ impl OtherType {
     }
 }
 
-/// Returns the types with fewer rows that need no other data than the points of a joint and
-/// directions along its axes, and that still transmit a force.
+/// Returns the types that need no other data than the points of a joint and directions along its
+/// axes, that still transmit a force, and that have fewer rows, but by no more than `released`. The
+/// cheapest types come first.
 pub(super) fn other_types(
-    of: &ConfigurationAnalysis<'_>,
+    of: Reactions<'_>,
     registry: &Registry,
     (id, group): (ConstraintId, &ConstraintGroup),
-) -> Result<Vec<OtherType>, StudyError> {
+    released: usize,
+) -> Vec<OtherType> {
     if group.is_drive() || !has_only_directions(group.spec) {
-        return Ok(Vec::new());
+        return Vec::new();
     }
-    let axes = axes(of, id, group.space)?;
+    let axes = axes(of, id, group.space);
     let forces = |spec: &ConstraintSpec| {
         let is_force =
             |row| move |[c, r]: &[usize; 2]| *r == row && group.space.forces().contains(c);
@@ -74,7 +73,8 @@ pub(super) fn other_types(
     let points = |spec: &'static ConstraintSpec| spec.common.slots_of_points();
     let mut out = Vec::new();
     for to in registry.constraints_in(group.space) {
-        let is_fitting = to.rows.len() < group.spec.rows.len()
+        let fewer = group.spec.rows.len().saturating_sub(to.rows.len());
+        let is_fitting = (1..=released).contains(&fewer)
             && has_only_directions(to)
             && to.common.slots.len() == group.spec.common.slots.len()
             && points(to).eq(points(group.spec))
@@ -110,7 +110,8 @@ pub(super) fn other_types(
                 .for_each(|axis| add(vec![(key, axis.clone())]));
         }
     }
-    Ok(out)
+    out.sort_by_key(|other: &OtherType| other.cost);
+    out
 }
 
 /// Whether a joint has no other parameters than points and directions, and at least one point.
@@ -142,17 +143,9 @@ fn directions(spec: &'static ConstraintSpec) -> impl Iterator<Item = (&'static s
 
 /// Returns the axes of a joint in the frame of its first body; those of the body if the joint has
 /// no axes.
-fn axes(
-    of: &ConfigurationAnalysis<'_>,
-    id: ConstraintId,
-    space: SpaceKind,
-) -> Result<Vec<Vec<f64>>, StudyError> {
-    let frames = of.frames(id)?;
-    let axes = |frame: Frame| {
-        let found = frames.iter().find(|found| found.frame == frame);
-        found.map(|found| found.axes.to_vec())
-    };
-    let body = axes(Frame::FirstBody).or(axes(Frame::Global));
+fn axes(of: Reactions<'_>, id: ConstraintId, space: SpaceKind) -> Vec<Vec<f64>> {
+    let axes = |frame: Frame| of.axes(id, frame).map(|axes| axes.to_vec());
+    let body = axes(Frame::FirstBody).or_else(|| axes(Frame::Global));
     let body = body.unwrap_or_default();
     let joint = axes(Frame::Joint).filter(|_| space == SpaceKind::Space3);
     let in_body = |axis: &[f64; 3]| {
@@ -171,10 +164,10 @@ fn axes(
         let sign = if is_negative { -1.0 } else { 1.0 };
         vector.iter().map(|x| sign * x + 0.0).collect()
     };
-    Ok(joint
+    joint
         .as_ref()
         .unwrap_or(&body)
         .iter()
         .map(in_body)
-        .collect())
+        .collect()
 }
