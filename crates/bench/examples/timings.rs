@@ -1,9 +1,6 @@
 //! Compares timings of the kernels with nalgebra and faer, in one run on one machine. Compare
 //! ratios, not absolute values: `cargo run --release -p bench --features faer --example timings`.
-#![allow(
-    clippy::print_stdout,
-    reason = "the output is what this example is for"
-)]
+#![allow(clippy::print_stdout, reason = "this example exists for its output")]
 
 use std::hint::black_box;
 use std::time::Instant;

@@ -1,7 +1,7 @@
 //! Scenes of the plane compared with the same scenes lifted into space: how long a run takes in
 //! both, and how far the bodies are apart at its end.
 //!
-//! Scenes of which a joint cannot be lifted are left out, and forces are taken away on both sides.
+//! Scenes with a joint that cannot be lifted are omitted, and forces are removed from both models.
 //!
 //! `cargo run --release -p lab --example lifted -- examples/four-bar.toml examples/truck.toml`
 #![allow(clippy::print_stdout)]
@@ -83,7 +83,7 @@ fn run(mechanism: Mechanism) -> Result<(f64, Vec<f64>), String> {
 }
 
 /// The largest distance of two places of a centre of mass (m): bodies have three numbers in the
-/// plane and seven in space, the places first.
+/// plane and seven in space, positions first.
 fn apart(plane: &[f64], space: &[f64]) -> f64 {
     let bodies = plane.chunks_exact(3).zip(space.chunks_exact(7));
     let distances = bodies.map(|(p, s)| (p[0] - s[0]).hypot(p[1] - s[1]).hypot(s[2]));

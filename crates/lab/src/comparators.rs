@@ -65,7 +65,7 @@ pub enum Fault {
     #[error(transparent)]
     Saddle(#[from] SaddleError),
     /// Rows that were independent at the initial state became dependent.
-    #[error("the constraints have lost their rank {rank} of the start")]
+    #[error("the rank of the constraints is below the rank {rank} of the start")]
     RankLost {
         /// The rank at the initial state.
         rank: usize,
@@ -100,7 +100,7 @@ pub enum Fault {
         steps: u64,
     },
     /// The run exceeds its time limit.
-    #[error("the time of computing was over at t = {time} s")]
+    #[error("the time limit of the computation was reached at t = {time} s")]
     TooLong {
         /// Time (s).
         time: f64,

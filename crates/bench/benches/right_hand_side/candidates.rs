@@ -56,7 +56,7 @@ pub(crate) struct Work<'r> {
     pub(crate) title: String,
     /// The group within which the candidate is compared.
     pub(crate) group: Group,
-    /// Number of calls in one lap.
+    /// Number of calls in one round of the measurement.
     pub(crate) calls: usize,
     /// Performs the calls of one lap.
     pub(crate) lap: Box<dyn FnMut() + 'r>,
@@ -179,8 +179,8 @@ impl<'r> List<'r> {
         })
     }
 
-    /// Adds generated code that evaluates L states at once. The result is checked at all states,
-    /// and each state counts as one call.
+    /// Adds generated code that evaluates L states at the same time. The result is checked at all
+    /// states, and each state counts as one call.
     fn lanes<const L: usize>(mut self, key: &'static str, title: &str) -> Outcome<Self> {
         let states = &self.robot.states;
         let size = states

@@ -139,6 +139,6 @@ fn end(robot: &Robot) -> Outcome<Vec<f64>> {
     if end.iter().all(|x| x.is_finite()) {
         Ok(end)
     } else {
-        Err("the reference does not know all of q and v at the end".into())
+        Err("the reference does not contain all of q and v at the end".into())
     }
 }

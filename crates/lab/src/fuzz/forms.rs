@@ -42,7 +42,7 @@ pub struct Forms {
 }
 
 impl Forms {
-    /// Draws the set with this number. It has two to four unknowns; every second set is
+    /// Draws the set with this number. A set has two to four unknowns; every second set is
     /// constructed.
     #[must_use]
     pub fn draw(seed: u64, number: u64) -> Self {

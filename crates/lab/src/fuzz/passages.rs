@@ -198,7 +198,7 @@ impl Parallelogram {
             if !(apart <= permitted && led <= permitted + by_rounding) {
                 let t = row.t;
                 wrong = Some(format!(
-                    "at {t} s the angles are {apart:.1e} rad apart, and the cranks by {led:.1e} off"
+                    "at {t} s the angles differ by {apart:.1e} rad, and the cranks have an error of {led:.1e} rad"
                 ));
                 return Ok(ControlFlow::Break(()));
             }

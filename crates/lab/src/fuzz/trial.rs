@@ -60,7 +60,7 @@ pub fn of(text: &str, mut begin: impl FnMut(Stage)) -> Reach {
             places(text, &problems);
             return Reach::Refused;
         }
-        Err(other) => panic!("a text is refused without a place: {other}"),
+        Err(other) => panic!("an error has no position in the text: {other}"),
     };
     begin(Stage::Prepare);
     let mut study = match assembled.prepare(&RunOptions::default()) {
@@ -84,7 +84,10 @@ pub fn of(text: &str, mut begin: impl FnMut(Stage)) -> Reach {
                     named(&e);
                     // All commands accept the same inputs. `check` and `analyze` only warn of an
                     // initial state that `simulate` rejects.
-                    assert!(!e.is_input(), "a start that can be judged is refused: {e}");
+                    assert!(
+                        !e.is_input(),
+                        "a start that can be analysed is rejected: {e}"
+                    );
                     Reach::NoStart
                 }
             };
@@ -109,7 +112,7 @@ pub fn of(text: &str, mut begin: impl FnMut(Stage)) -> Reach {
     // `check` and `analyze` only warn of an initial state that `simulate` rejects.
     assert!(
         rows > 0 || warning.is_some(),
-        "no motion begins, and there was no warning"
+        "no motion exists, but the program printed no warning"
     );
     reach
 }

@@ -12,7 +12,7 @@ use joints::{
     Angle, Direction, Distance, Fixed, Gear, KnifeEdge, PinInSlot, Pose, RackAndPinion, Revolute,
     RevoluteAngleDrive, Rolling, Translational, TranslationalDisplacementDrive,
 };
-use model::{Body, BodyRef, ConstraintKernels, Description, Drive, Function, Joint};
+use model::{Body, BodyRef, ConstraintKernels, ContactLimits, Description, Drive, Function, Joint};
 
 /// A point or vector in global coordinates.
 pub type Vector = [f64; 2];
@@ -169,6 +169,7 @@ impl Sketch {
             element: self.element(link),
             functions: Vec::new(),
             tolerance: None,
+            limits: ContactLimits::default(),
         }
     }
 

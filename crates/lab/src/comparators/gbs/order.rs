@@ -5,7 +5,7 @@
 
 use super::columns::{COLUMNS, substeps, work};
 
-/// The next step size is `SAFETY · (SAFETY_ERROR / err)^(1/(2j − 1))` times the present one.
+/// The next step size is `SAFETY · (SAFETY_ERROR / err)^(1/(2j − 1))` times the current one.
 const SAFETY: f64 = 0.94;
 const SAFETY_ERROR: f64 = 0.65;
 /// Factors of h are between `MIN_FACTOR^(1/(2j−1)) / MAX_DIVISOR` and the inverse of
@@ -13,7 +13,7 @@ const SAFETY_ERROR: f64 = 0.65;
 const MIN_FACTOR: f64 = 0.02;
 const MAX_DIVISOR: f64 = 4.0;
 /// The order is lowered if the work per unit of time of the lower order is below the first fraction
-/// of the present work. The order is raised if the work of the present order is below the second
+/// of the current work. The order is raised if the work of the current order is below the second
 /// fraction of the work of the lower order.
 const LOWER_ORDER: f64 = 0.8;
 const HIGHER_ORDER: f64 = 0.9;

@@ -57,7 +57,7 @@ fn make_unique(truth: &Truth, answer: &Value, findings: &mut Findings) {
     let name = answer["reaction"].as_str().unwrap_or_default();
     let mut elements = truth.elements.iter();
     let Some(element) = elements.find(|e| e.name == name) else {
-        findings.note(Kind::Sentence, format!("there was no request for `{name}`"));
+        findings.note(Kind::Sentence, format!("`{name}` was not requested"));
         return;
     };
     if answer["reason"].is_string() {

@@ -10,7 +10,8 @@ use super::outcome::JudgedStart;
 /// above the distance times this factor lowers the rank.
 pub const BEYOND_DOUBT: f64 = 3.0;
 
-/// If the distance exceeds the tolerance by this factor, all results must be decided.
+/// If the distance of the data from a lower rank exceeds the tolerance by this factor, all results
+/// must be decided.
 const FAR: f64 = 30.0;
 
 /// A tolerance, and the distance of the data from a lower rank, in the same unit.

@@ -1,9 +1,9 @@
 //! A mechanism in double precision, created from a drawing, with Φ and C at any configuration and
-//! for any data. It is not used for verdicts. It is used to compute the distance of the data from a
-//! lower rank (`near`) and the reactions under loads.
+//! for any data. The mechanism is not used for verdicts. The module `near` uses it to compute the
+//! distance of the data from a lower rank, and other modules compute reactions under loads with it.
 //!
-//! It uses no code of the crates under test. It is derived from the definitions of the joints:
-//! positions of points, and the rate of the quantity that a joint keeps constant.
+//! This module uses no code of the crates under test. It is derived from the definitions of the
+//! joints: positions of points, and the rate of the quantity that a joint keeps constant.
 
 use pfaff::linalg::Matrix;
 
@@ -443,7 +443,7 @@ impl Pen<'_> {
 }
 
 impl Doubles {
-    /// Converts the present variant of the drawing.
+    /// Converts the current variant of the drawing.
     #[must_use]
     pub fn of(posed: &Posed) -> Self {
         let k = posed.stretch;

@@ -7,7 +7,7 @@ use super::expected::Verdict;
 /// The severity of a finding, in ascending order.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Kind {
-    /// There is no answer: the scene was rejected.
+    /// The scene was rejected, so no answer exists.
     Refused,
     /// The program reports that a result is undecided.
     Undecided,

@@ -19,7 +19,7 @@ const CONTRADICTS: f64 = 1e-6;
 /// One linear equation.
 #[derive(Clone, Debug)]
 pub struct Equation {
-    /// The value for the present data, which must become zero.
+    /// The value for the current data, which must become zero.
     pub target: f64,
     /// Coefficients of each point, direction or single value.
     pub parts: Vec<[f64; 2]>,

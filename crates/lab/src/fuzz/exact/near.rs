@@ -324,7 +324,7 @@ impl Doubles {
 
 /// A configuration with the rows that are independent for a lower rank.
 struct Candidate {
-    /// Combinations of rows. Each is a redundant row minus the combination of independent rows that
+    /// Combinations of rows: a redundant row minus the combination of independent rows that
     /// approximates it. The combination with the smallest value is last.
     left: Vec<Vec<f64>>,
     /// Motions that the independent rows allow, in the order of the size of `left·C` along them.

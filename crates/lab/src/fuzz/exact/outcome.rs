@@ -33,7 +33,8 @@ pub struct JudgedStart {
     pub findings: Findings,
     /// The rank in the answer of the program, if it is decided and no other rank is correct.
     pub rank: Option<u64>,
-    /// The reason why another rank is also correct. In this case verdicts were not compared.
+    /// The reason why another rank is also correct. If another rank is also correct, verdicts are
+    /// not compared.
     pub other_rank: Option<&'static str>,
 }
 

@@ -10,7 +10,7 @@ pub struct Ratio {
     denominator: i128,
 }
 
-const FITS: &str = "numbers of a drawing fit into 127 bits";
+const FITS: &str = "the numbers of a drawing have at most 127 bits";
 
 impl Ratio {
     /// The number 0.

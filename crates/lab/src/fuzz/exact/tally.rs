@@ -336,7 +336,7 @@ impl Tally {
         let all = self.sum(|_, _| true);
         text.push_str(&all.line("all"));
         text.push_str(&format!(
-            "{} wrong; {} undecided or refused of {} that have to be decided\n\
+            "{} wrong; {} undecided or rejected of {} that must be decided\n\
              {} drawings with ranks that contradict each other\n",
             all.wrong(),
             all.undecided(),

@@ -41,7 +41,10 @@ pub fn examine(truth: &Truth, right: &Expected, answer: &Value, findings: &mut F
                 dependency.sentence(findings);
             }
             None => {
-                let text = format!("rows {} are no minimal dependent set", dependency["rows"]);
+                let text = format!(
+                    "the rows {} are not a minimal dependent set",
+                    dependency["rows"]
+                );
                 findings.note(Kind::Sentence, text);
             }
         }
@@ -73,7 +76,10 @@ pub fn circuits(truth: &Truth, answer: &Value, findings: &mut Findings) {
     }
     for dependency in dependencies {
         if truth.circuit(&rows(&dependency["rows"])).is_none() {
-            let text = format!("rows {} are no minimal dependent set", dependency["rows"]);
+            let text = format!(
+                "the rows {} are not a minimal dependent set",
+                dependency["rows"]
+            );
             findings.note(Kind::Sentence, text);
         }
     }

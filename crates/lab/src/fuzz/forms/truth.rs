@@ -15,11 +15,11 @@ use super::polynomial::Polynomial;
 /// The correct result for forms.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Truth {
-    /// There is no common zero.
+    /// The forms have no common zero.
     None,
     /// A common zero at which the gradients are independent.
     Simple,
-    /// There is a common zero. At every common zero the gradients are dependent.
+    /// The forms have a common zero. At every common zero the gradients are dependent.
     Double,
     /// The result is unknown.
     Open,

@@ -107,25 +107,27 @@ impl Count {
     pub fn name(self) -> &'static str {
         match self {
             Self::Ran => "mechanisms that ran to their end",
-            Self::Stopped => "runs that stopped where they cannot continue, or at a singular pose",
+            Self::Stopped => {
+                "runs that stopped because they could not continue, or at a singular pose"
+            }
             Self::Cut => "runs that took too many steps",
             Self::DoesNotMove => "refused, and does not move",
             Self::SingularStart => "refused at a singular configuration",
-            Self::NoFinite => "refused, and no reaction is finite",
-            Self::NoVelocities => "refused for velocities that no motion has",
+            Self::NoFinite => "runs rejected because no reaction is finite",
+            Self::NoVelocities => "runs rejected because no motion has the given velocities",
             Self::NoScene => "refused for the text",
             Self::Redundant => "mechanisms with redundant rows",
-            Self::Unclear => "states near a lower rank, without an answer of the oracle",
+            Self::Unclear => "states near a lower rank, for which the oracle has no result",
             Self::Values => "determined values compared at one state",
             Self::BetweenRuns => "determined values compared between two runs",
             Self::OtherStates => "rows of two runs with different states",
             Self::NotDetermined => "components not determined on a stretch",
             Self::Differs => "  they differ between two solutions",
-            Self::NoLoad => "  they are free, and no load reaches them",
+            Self::NoLoad => "  free components that no load affects",
             Self::Undecided => "components undecided on a stretch",
-            Self::Sturdy => "determined components, not fragile, with displaced data",
+            Self::Sturdy => "determined, well-conditioned components, computed with displaced data",
             Self::Fragile => "fragile components with displaced data",
-            Self::FragileChanges => "  they change by more than 8 %",
+            Self::FragileChanges => "  ill-determined components that change by more than 8 %",
         }
     }
 }

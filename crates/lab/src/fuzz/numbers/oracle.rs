@@ -16,7 +16,7 @@ use super::forms::Form;
 const ZERO: f64 = 1e-9;
 
 /// A singular value between these two fractions of the largest one means that the configuration is
-/// near a configuration of lower rank. In this case no result is returned.
+/// near a configuration of lower rank. Near a configuration of lower rank no result is returned.
 const UNCLEAR: [f64; 2] = [1e-11, 1e-6];
 
 /// Reason why there is no solution.
@@ -190,8 +190,9 @@ impl Parts {
     }
 }
 
-/// Returns `count` orthonormal columns that are perpendicular to the given orthonormal columns.
-/// They are computed from the unit vectors with the smallest components along the given columns.
+/// Returns `count` orthonormal columns that are perpendicular to the given orthonormal columns. The
+/// new columns are computed from the unit vectors with the smallest components along the given
+/// columns.
 fn complement(given: &DMatrix<f64>, count: usize) -> DMatrix<f64> {
     let n = given.nrows();
     let mut rest = DMatrix::identity(n, n) - given * given.transpose();

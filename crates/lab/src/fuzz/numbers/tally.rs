@@ -160,8 +160,8 @@ impl Tally {
         text
     }
 
-    /// Writes the mechanisms with disagreements into a folder. There is one file for each kind and
-    /// each mechanism, with the disagreement at the start of the file.
+    /// Writes the mechanisms with disagreements into a folder. The folder contains one file for
+    /// each kind and each mechanism, with the disagreement at the start of the file.
     ///
     /// # Errors
     /// Returns an error if a file cannot be written.

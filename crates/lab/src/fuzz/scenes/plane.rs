@@ -118,6 +118,10 @@ pub(super) fn nonholonomic(draft: &mut Draft, values: &mut Values<'_>) {
                 values.direction(),
                 values.number()
             ));
+            if values.numbers.once_in(2) {
+                let spin = values.one(&["absolute", "relative"]);
+                draft.line(&format!("spin = \"{spin}\""));
+            }
         }
         _ => {
             let body = draft.body(values.numbers, 100);

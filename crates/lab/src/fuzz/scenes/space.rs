@@ -34,7 +34,7 @@ pub(super) fn orientation(values: &mut Values<'_>) -> String {
     }
 }
 
-/// Returns a tensor of inertia, mostly as principal moments. Some of them are impossible for a real
+/// Returns a tensor of inertia, mostly as principal moments. Some tensors are impossible for a real
 /// body.
 fn inertia(values: &mut Values<'_>) -> String {
     match values.numbers.below(16) {
@@ -89,9 +89,11 @@ pub(super) fn joint(draft: &mut Draft, values: &mut Values<'_>, pair: [String; 2
         "spherical",
         "spherical",
         "universal",
+        "constant-velocity",
         "translational",
         "cylindrical",
         "cylindrical",
+        "screw",
         "planar",
         "fixed",
         "distance",
@@ -100,10 +102,17 @@ pub(super) fn joint(draft: &mut Draft, values: &mut Values<'_>, pair: [String; 2
         "parallel",
         "perpendicular",
         "orientation",
+        "mesh",
     ];
     let kind = kinds[values.numbers.below(kinds.len())];
+    if kind == "mesh" {
+        return mesh(draft, values);
+    }
     begin(draft, values, kind);
     draft.line(&format!("bodies = [{}, {}]", pair[0], pair[1]));
+    if kind == "screw" {
+        draft.line(&format!("pitch = {}", values.number()));
+    }
     let has_no_place = matches!(kind, "parallel" | "perpendicular" | "orientation");
     let has_an_axis = !matches!(kind, "fixed" | "orientation" | "spherical" | "distance");
     let markers = draft.markers.len();
@@ -119,6 +128,34 @@ pub(super) fn joint(draft: &mut Draft, values: &mut Values<'_>, pair: [String; 2
     }
     if has_an_axis {
         axes(draft, values, kind, &pair);
+    }
+}
+
+/// Adds a gear mesh of wheels that rotate about the axes of two joints, if there are two joints.
+fn mesh(draft: &mut Draft, values: &mut Values<'_>) {
+    let turns = |kind: &str| matches!(kind, "revolute" | "cylindrical" | "screw");
+    let is_wild = values.numbers.once_in(8);
+    let known = draft
+        .joints
+        .iter()
+        .filter(|joint| is_wild || turns(joint.1));
+    let known: Vec<String> = known.map(|joint| joint.0.clone()).collect();
+    if known.len() < 2 {
+        return;
+    }
+    begin(draft, values, "mesh");
+    let first = values.numbers.below(known.len());
+    let second = (first + 1 + values.numbers.below(known.len() - 1)) % known.len();
+    draft.line(&format!("bearings = [{}, {}]", known[first], known[second]));
+    if values.numbers.once_in(4) {
+        let carrier = draft.body(values.numbers, 3);
+        draft.line(&format!("carrier = {carrier}"));
+    }
+    own_place(draft, values);
+    match values.numbers.below(4) {
+        0 => draft.line(&format!("line = {}", values.direction())),
+        1 => {}
+        _ => draft.line(&format!("pressure_angle = {}", values.angle())),
     }
 }
 
@@ -152,15 +189,15 @@ fn axes(draft: &mut Draft, values: &mut Values<'_>, kind: &str, pair: &[String; 
     }
 }
 
-/// Adds a joint of one body with the ground: an edge, a given velocity, or a wheel.
+/// Adds a joint of one body with the ground: an edge, a given velocity, a wheel, or a ball.
 pub(super) fn nonholonomic(draft: &mut Draft, values: &mut Values<'_>) {
-    let kinds = ["knife-edge", "velocity", "wheel"];
+    let kinds = ["knife-edge", "velocity", "wheel", "ball"];
     let kind = kinds[values.numbers.below(kinds.len())];
     begin(draft, values, kind);
     let body = draft.body(values.numbers, 100);
     draft.line(&format!("body = {body}"));
     match kind {
-        "wheel" => wheel(draft, values),
+        "wheel" | "ball" => rolling(draft, values, kind),
         "velocity" => {
             own_place(draft, values);
             let (along, rate) = (values.direction(), number_or_function(values));
@@ -173,10 +210,13 @@ pub(super) fn nonholonomic(draft: &mut Draft, values: &mut Values<'_>) {
     }
 }
 
-/// Adds the keys of a wheel. The distance of the plane from the centre is often one radius.
-fn wheel(draft: &mut Draft, values: &mut Values<'_>) {
+/// Adds the keys of a wheel or of a ball. The distance of the plane from the centre is often one
+/// radius.
+fn rolling(draft: &mut Draft, values: &mut Values<'_>, kind: &str) {
     draft.line(&format!("point = {}", values.point()));
-    draft.line(&format!("axis = {}", values.direction()));
+    if kind == "wheel" {
+        draft.line(&format!("axis = {}", values.direction()));
+    }
     draft.line(&format!("radius = {}", values.positive()));
     if values.numbers.once_in(2) {
         let (point, normal) = (values.point(), values.direction());
@@ -189,7 +229,7 @@ pub(super) fn measure_of(values: &mut Values<'_>, kind: &str) -> Option<&'static
     match kind {
         "revolute" => Some("angle"),
         "translational" => Some("displacement"),
-        "cylindrical" => Some(values.one(&["angle", "displacement"])),
+        "cylindrical" | "screw" => Some(values.one(&["angle", "displacement"])),
         "distance" => Some("length"),
         _ => values.numbers.once_in(20).then_some("angle"),
     }

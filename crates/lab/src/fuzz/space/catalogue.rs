@@ -436,9 +436,9 @@ pub fn delta() -> Drawing {
     drawing
 }
 
-/// Returns four-bars in series. The first is mounted on the ground, and each other one on the
-/// coupler of the previous one; their planes have different directions. Each four-bar adds 20 rows,
-/// three of which are redundant, and one degree of freedom.
+/// Returns four-bars in series. The first four-bar is mounted on the ground, and each other
+/// four-bar on the coupler of the previous one; their planes have different directions. Each
+/// four-bar adds 20 rows, three of which are redundant, and one degree of freedom.
 #[must_use]
 pub fn four_bars_in_a_row(count: usize) -> Drawing {
     let turns = [[1, 0, 0, 0], [3, 1, 0, 0], [3, 0, 1, 0], [2, 1, 1, 1]].map(Rotation::whole);

@@ -3,7 +3,7 @@
 //! allow. Along a motion with velocities v, the rank is the same to first order if and only if
 //! `Zᵀ·Ċ(v)·N = 0`, with bases Z of null(Cᵀ) and N of ker C.
 //!
-//! The rows of a joint are a set of wrenches that spans all wrenches of the joint. Each is a
+//! The rows of a joint are a set of wrenches that spans all wrenches of the joint. Each wrench is a
 //! product of at most two vectors, so the difference over ±v is exactly twice the derivative.
 //! Additional wrenches in a set depend on the others at every configuration and have no effect.
 
@@ -237,7 +237,8 @@ fn displaced(joint: &Joint, velocity: &[Twist]) -> Kind {
     moved
 }
 
-/// Returns wrenches that span all wrenches of a joint. Each is a product of at most two vectors.
+/// Returns wrenches that span all wrenches of a joint. Each wrench is a product of at most two
+/// vectors.
 fn spanning(kind: &Kind) -> Vec<Wrench> {
     let units = [0, 1, 2].map(Vector::unit);
     let each = |wrench: &dyn Fn(&Vector) -> Wrench| units.each_ref().map(wrench).to_vec();

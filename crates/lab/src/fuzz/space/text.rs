@@ -71,7 +71,7 @@ pub fn description(drawing: &Drawing, precision: &Precision) -> Result<SpatialDe
     let read = AssembledScene::read("scene.toml", &text, &Registry::standard());
     match read.map_err(|e| e.to_string())?.scene.description {
         AnyDescription::Space3(description) => Ok(description),
-        AnyDescription::Plane(_) => Err("the scene is in the plane".into()),
+        AnyDescription::Plane(_) => Err("the scene is planar".into()),
     }
 }
 

@@ -46,7 +46,7 @@ pub fn outcomes(seed: u64, drawn: u64) -> Vec<Outcome> {
             way,
             text,
             truth: format!(
-                "{}\nσ_r {:.2e}, C known to {known:.1e}, {}",
+                "{}\nσ_r {:.2e}, C accurate to {known:.1e}, {}",
                 meant.right.describe(),
                 meant.sigma,
                 meant.right.elsewhere.words()
@@ -65,7 +65,7 @@ pub struct Meant {
     right: Expected,
     /// Size of the drawing (m).
     size: f64,
-    /// The smallest nonzero singular value, for rows of size one.
+    /// The smallest nonzero singular value, for rows of norm one.
     sigma: f64,
     margins: Margins,
 }
@@ -196,7 +196,7 @@ struct Margins {
     sigma: f64,
     /// Orthonormal combinations of rows that span the range of C, as columns.
     range: Matrix,
-    /// The factors that scale the rows to size one.
+    /// The factors that scale the rows to norm one.
     factors: Vec<f64>,
 }
 
@@ -224,7 +224,7 @@ impl Margins {
     }
 
     /// Returns the norm of the part of a combination of multipliers in the null space, for rows of
-    /// size one.
+    /// norm one.
     fn margin(&self, combination: &[(usize, f64)]) -> f64 {
         norm(&self.free(combination))
     }

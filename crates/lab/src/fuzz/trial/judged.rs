@@ -96,12 +96,12 @@ fn verdicts(configuration: &ConfigurationAnalysis<'_>) {
             match &row.judgement.verdict {
                 Verdict::Unique => assert!(
                     !depends(row.row),
-                    "row {} is unique and depends on others",
+                    "row {} is unique although it depends on other rows",
                     row.row + 1
                 ),
                 Verdict::NotUnique => assert!(
                     depends(row.row) || is_open,
-                    "row {} is not unique and depends on nothing",
+                    "row {} is not unique although it depends on no other row",
                     row.row + 1
                 ),
                 Verdict::Undecided { reason } => assert!(!reason.is_empty()),

@@ -232,7 +232,7 @@ fn reported(missed: &[f64], misfits: &[Misfit]) {
         let largest = misfit.map_or(0.0, |m| m.largest);
         assert!(
             missed <= largest * (1.0 + 1e-9),
-            "row {row} misses {missed:e}, and {largest:e} is reported"
+            "row {row} is violated by {missed:e}, but {largest:e} is reported"
         );
     }
     for m in misfits {
@@ -251,7 +251,7 @@ fn readable(table: Vec<u8>, rows: usize, name: &str) {
     assert_eq!(
         names.len(),
         header.len(),
-        "{name}: columns of one name: {header:?}"
+        "{name}: several columns have the same name: {header:?}"
     );
     let mut count = 0;
     for row in reader.records() {

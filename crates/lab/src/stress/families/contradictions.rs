@@ -3,7 +3,7 @@
 
 use dynamics::MotionOptions;
 use joints::{Direction, Velocity};
-use model::{Body, BodyRef, Description, Function, Joint};
+use model::{Body, BodyRef, ContactLimits, Description, Function, Joint};
 
 use crate::mechanisms::cranks::driven_parallelogram;
 use crate::stress::case::{Case, Expected, Family, Outcome};
@@ -155,6 +155,7 @@ fn towed([front, rear]: [Function; 2]) -> Description {
         }),
         functions: vec![rate],
         tolerance: None,
+        limits: ContactLimits::default(),
     };
     Description {
         name: "towed cart".into(),

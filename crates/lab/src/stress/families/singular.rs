@@ -86,8 +86,8 @@ fn cases() -> Vec<Case> {
         ));
     }
     let right = Expected::refusal(&[
-        "`vx` of body `cart` is held by `keep` at 1",
-        "leave out `cart.vx` in `keep`",
+        "`vx` of body `cart` is fixed by `keep` at 1",
+        "omit `cart.vx` in `keep`",
     ]);
     cases.push(asking(
         "locked edges with a velocity that is held",

@@ -85,7 +85,7 @@ fn cases() -> Vec<Case> {
         cases.push(case.at("J/m (m²)", ratio));
     }
     let kept = r#"start = { keep = ["bob.vx"] }"#;
-    let right = Expected::refusal(&["`vx` of body `bob` is held by `keep` at 1", "pivot"]);
+    let right = Expected::refusal(&["`vx` of body `bob` is fixed by `keep` at 1", "pivot"]);
     cases.push(asking(
         "a velocity is held that no motion has",
         "start",

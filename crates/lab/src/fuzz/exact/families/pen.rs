@@ -118,8 +118,8 @@ impl<'a> Pen<'a> {
         }
     }
 
-    /// Often places the origin of a body at the point in which lines meet, so that the lever arms
-    /// of these lines are zero.
+    /// Often puts the origin of a body at the point in which lines meet, so that the lever arms of
+    /// these lines are zero.
     pub(super) fn often_at(&mut self, body: Side, centre: Vector) {
         if let Some(k) = body.filter(|_| self.numbers.once_in(2)) {
             self.drawing.origins[k] = Some(centre);

@@ -14,9 +14,9 @@ pub(super) fn chains(pen: &mut Pen<'_>) {
     }
 }
 
-/// Draws a tree. Its joint rows are independent, because no joint closes a loop. A knife edge on
-/// the last body is also independent, if this body can move along the normal of the edge; this
-/// condition is not checked.
+/// Draws a tree. The joint rows of a tree are independent, because no joint closes a loop. A knife
+/// edge on the last body is also independent, if this body can move along the normal of the edge;
+/// this condition is not checked.
 fn tree(pen: &mut Pen<'_>) {
     let mut bodies: Vec<Side> = vec![pen.base];
     for _ in 0..1 + pen.numbers.below(4) {
