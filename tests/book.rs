@@ -27,6 +27,8 @@ mod large {}
 mod verdict {}
 #[doc = include_str!("../docs/book/bounds.md")]
 mod bounds {}
+#[doc = include_str!("../docs/book/contacts.md")]
+mod contacts {}
 #[doc = include_str!("../docs/book/not-unique.md")]
 mod not_unique {}
 #[doc = include_str!("../docs/book/space.md")]

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Draw sentences from the prose of the repository, for readers who know nothing else of it.
+"""Draw sentences from the prose of the repository, for readers who have seen only these sentences.
 
 python3 tests/sentences.py 200 > sentences.txt
 
@@ -39,19 +39,44 @@ def paragraphs_of_page(text: str) -> Iterator[str]:
 
 def paragraphs_of_rust(text: str) -> Iterator[str]:
     """Yield the paragraphs of doc comments, and texts of programs of six words and more."""
+    # Tests within a file are at its end.
+    text = re.split(r"^#\[cfg\(test\)\]\nmod \w+ \{", text, flags=re.MULTILINE)[0]
     lines = [re.match(r"\s*//[/!] ?(.*)$", line) for line in text.splitlines()]
     page = "\n".join(line.group(1) if line else "\n" for line in lines)
     yield from paragraphs_of_page(page)
     for quoted in re.findall(r'"((?:[^"\\\n]|\\.|\\\n)*)"', re.sub(r"^\s*//.*$", "", text, flags=re.MULTILINE)):
         words = " ".join(re.sub(r"\\\n\s*", "", quoted).split())
-        if len(words.split()) > 5 and "<" not in words and "=" not in words[:20]:
+        is_prose = len(re.findall(r"(?<![\w.])[a-z]{2,}(?![\w(.=])", words)) > 2
+        if is_prose and len(words.split()) > 5 and "<" not in words and "=" not in words[:20] and "\\n" not in words[:-2]:
             yield words
 
 
 def paragraphs_of_python(text: str) -> Iterator[str]:
     """Yield the paragraphs of docstrings."""
     for docstring in re.findall(r'"""(.*?)"""', text, flags=re.DOTALL):
+        # Scenes and programs in tests.
+        if re.match(r"\s*(\[|import |from |\w+ = )", docstring):
+            continue
         yield from paragraphs_of_page(re.sub(r"^ +", "", docstring, flags=re.MULTILINE))
+
+
+#: Abbreviations in names of persons and journals, and of editions; they do not end a sentence.
+ABBREVIATION = re.compile(
+    r"\b(?:[A-Z]|Acta|Anal|Appl|Autom|Comput|Dyn|Eng|Int|Math|Mech|Meth|Multibody|Numer|Optim|Phys|Proc|Sci|Soc"
+    r"|Softw|Stat|Statist|Syst|Trans|ed|et al)\.$"
+)
+
+
+def sentences_of(paragraph: str) -> Iterator[str]:
+    """Yield the sentences of a paragraph."""
+    sentence = ""
+    for part in re.split(r"(?<=[.!?])\s+(?=[A-Z`])", paragraph):
+        sentence = f"{sentence} {part}".strip()
+        if not ABBREVIATION.search(sentence):
+            yield sentence
+            sentence = ""
+    if sentence:
+        yield sentence
 
 
 def sentences() -> list[str]:
@@ -66,7 +91,7 @@ def sentences() -> list[str]:
         if is_test and name.endswith(".rs"):
             continue
         for paragraph in reader((ROOT / name).read_text(encoding="utf-8")):
-            for sentence in re.split(r"(?<=[.!?])\s+(?=[A-Z`])", paragraph):
+            for sentence in sentences_of(paragraph):
                 if 5 <= len(sentence.split()) <= 60:
                     found[sentence] = None
     return list(found)

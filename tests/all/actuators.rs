@@ -106,7 +106,7 @@ fn without_its_drive_the_cylinder_is_free() {
     let study = study(BOOM);
     let analysed = study.analyse(0.0, None).expect("analysed");
     let freedoms = analysed.freedoms().expect("freedoms");
-    let without = freedoms.without_drives.expect("has a drive");
+    let without = freedoms.without_drives.as_ref().expect("has a drive");
     assert_eq!((without.ranks.rank, without.mobility), (2, 1));
 }
 

@@ -282,12 +282,12 @@ fn what_belongs_to_a_shifted_origin_needs_the_rotation() {
     );
     let without_angle = refused(|s| s.replace("\"pendulum.angle\", ", ""));
     assert!(
-        without_angle.contains("hold `pendulum.angle` too"),
+        without_angle.contains("keep `pendulum.angle`, too"),
         "{without_angle}"
     );
     let without_omega = refused(|s| s.replace(", \"pendulum.omega\"]", "]"));
     assert!(
-        without_omega.contains("hold `pendulum.omega` too"),
+        without_omega.contains("keep `pendulum.omega`, too"),
         "{without_omega}"
     );
 }

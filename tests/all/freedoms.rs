@@ -31,7 +31,7 @@ fn study(name: &str) -> Study {
 
 fn freedoms(study: &Study) -> Freedoms {
     let start = study.analyse(0.0, None).expect("a start");
-    start.freedoms().expect("its configuration")
+    start.freedoms().expect("its configuration").clone()
 }
 
 fn texts(motions: &FreeMotions) -> Vec<&str> {

@@ -356,7 +356,7 @@ fn the_plan_says_whether_code_is_used_and_why_not() {
     let (used, _, apart) = planned(&coded, Method::Auto);
     assert_eq!(
         (used, apart.as_str()),
-        (true, "the generated code has all bodies")
+        (true, "the generated code contains all bodies")
     );
     for (p, method, no_code) in [
         (&p, Method::Auto, NoCode::None),

@@ -2,7 +2,9 @@
 //! comparison with other configurations.
 
 use joints::{KnifeEdge, Revolute, RevoluteAngleDrive, Velocity, plane::Direction};
-use model::{Body, BodyRef, Description, Drive, Function, Joint, Mechanism, Registry};
+use model::{
+    Body, BodyRef, ContactLimits, Description, Drive, Function, Joint, Mechanism, Registry,
+};
 use pfaff::{RunOptions, Study};
 use solvability::{Generic, analyse, generic, generic_with_verdicts, is_permanent};
 use tests::cranks::cranks;
@@ -187,6 +189,7 @@ fn time_moves_where_a_joint_depends_on_it() {
             direction: Direction::X,
         }),
         functions: vec![Function::constant_rate(1.0).expect("finite")],
+        limits: ContactLimits::default(),
     };
     let d = Description {
         bodies: vec![beam()],

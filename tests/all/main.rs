@@ -12,6 +12,7 @@ mod carried;
 mod cases;
 mod choices;
 mod chosen_runs;
+mod contacts;
 mod deletions;
 mod drives_that_jump;
 mod equilibrium;

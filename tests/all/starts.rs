@@ -516,7 +516,7 @@ fn locked_parts() {
                         said.contains("of body `part` is given as"),
                         "{size:e}, {far}: {said}"
                     );
-                    assert!(said.contains("leave out"), "{said}");
+                    assert!(said.contains("omit"), "{said}");
                 }
             }
             for rounding in [0.0, 1e-17, -1e-20, 1e-300] {

@@ -43,15 +43,17 @@ pub(crate) fn check() -> Result<String, String> {
             let difference = is.lines().zip(told.lines()).find(|(is, told)| is != told);
             let (is, told) = difference.unwrap_or(("more lines or fewer", "the text"));
             return Err(format!(
-                "the public API of `{}` is not that of {FOLDER}: `{}`, recorded as `{}`; if this is meant, \
-                 `cargo xtask api` writes it anew",
+                "the public API of `{}` differs from the list in {FOLDER}: `{}`, recorded as `{}`; if the change is intended, `cargo xtask api` updates the list",
                 library.name,
                 is.trim(),
                 told.trim()
             ));
         }
     }
-    Ok(format!("{} public APIs are as recorded", libraries.len()))
+    Ok(format!(
+        "{} public APIs agree with the recorded lists",
+        libraries.len()
+    ))
 }
 
 /// The packages under `crates/` that are published and have a library.
@@ -84,8 +86,7 @@ fn text(library: &Library) -> Result<String, String> {
     let root = Module::read(&library.folder.join("src/lib.rs"))?;
     let public = Public::of(&root);
     Ok(format!(
-        "// The public API of `{}`, written by `cargo xtask api`: no bodies, no documentation, and \
-         without what only a macro writes.\n\n{}",
+        "// The public API of `{}`, written by `cargo xtask api`: without bodies, documentation, and items that only a macro writes.\n\n{}",
         library.name,
         public.text()
     ))

@@ -111,7 +111,7 @@ pub(crate) fn check() -> Result<String, String> {
     let (mut faults, mut said) = (Vec::new(), Vec::new());
     for (name, licence) in OTHERS {
         if !text.contains(&other(name, licence)?) {
-            faults.push(format!("{name}: the licence is not that of {licence}"));
+            faults.push(format!("{name}: the licence text differs from {licence}"));
         }
     }
     for product in PRODUCTS {
@@ -124,7 +124,7 @@ pub(crate) fn check() -> Result<String, String> {
     faults.sort();
     faults.dedup();
     Err(format!(
-        "{FILE} is not that of Cargo.lock; {WRITE}:\n{}",
+        "{FILE} does not agree with Cargo.lock; {WRITE}:\n{}",
         faults.join("\n")
     ))
 }
@@ -170,7 +170,7 @@ impl Product {
                     now.insert(system, Err(()));
                     missing += 1;
                     said.push(format!(
-                        "{} on {target} is not compared: its crates are not on this machine",
+                        "{} on {target} is not compared: its crates are not installed on this machine",
                         self.name
                     ));
                 }

@@ -1,4 +1,4 @@
-"""What sweeps on Dask cost more than two processes with a shard each, and what a kill loses.
+"""This report compares sweeps on Dask with two processes, each with a shard, and measures the loss after a kill.
 
 After `python python/build.py`: `python/target/venv/bin/python docs/reports/clusters/measure.py`. The
 two processes are those of Python, or with `--command target/release/pfaff` those of the command.

@@ -13,7 +13,7 @@ fn a_leg_that_is_too_long_leaves_the_bounds() {
     let study = study(TABLE);
     let start = study.analyse(0.0, None).expect("small");
     let solution = start.solution().expect("decided");
-    let found = start.bounds(&solution, &Elasticity::default());
+    let found = start.bounds(solution, &Elasticity::default());
     let (compliance, h) = (1e-6, 1e-3);
     let supports = |h: f64| ElasticSupports {
         compliances: (0..4)
@@ -101,7 +101,7 @@ fn supports_with_oblique_stiffness_leave_the_bounds() {
         let study = study(&random(&mut numbers, false));
         let start = study.analyse(0.0, None).expect("small");
         let solution = start.solution().expect("decided");
-        let found = start.bounds(&solution, &Elasticity::default());
+        let found = start.bounds(solution, &Elasticity::default());
         let Ok(bounds) = found.group(&Group::WrenchSum(vec![(1.0, ConstraintId(0))])) else {
             continue;
         };
@@ -144,7 +144,7 @@ fn a_support_that_shares_with_a_slipping_wheel_has_a_memory() {
     );
     let start = study.analyse(0.0, None).expect("small");
     let solution = start.solution().expect("decided");
-    let found = start.bounds(&solution, &Elasticity::default());
+    let found = start.bounds(solution, &Elasticity::default());
     // The reaction on the sled is opposite to the load.
     let bounds = of(&found, 0, "Fy");
     assert_range(&bounds, [0.0, 10.0], "support");

@@ -27,7 +27,7 @@ fn soft_joints_reach_the_ends_of_one_component() {
     let study = study(TABLE);
     let start = study.analyse(0.0, None).expect("small");
     let solution = start.solution().expect("decided");
-    let found = start.bounds(&solution, &Elasticity::default());
+    let found = start.bounds(solution, &Elasticity::default());
     // Tables on three legs, by hand: the loads of the four legs without one of them.
     let expected = [
         [-78.48, 0.0],
@@ -133,7 +133,7 @@ fn examine(part: &Part, loads: &Loads, numbers: &mut Numbers, counts: &mut Count
     }
     assert_eq!(start.analysis.decision.redundancy, 2, "{text}");
     let solution = start.solution().expect("decided");
-    let found = start.bounds(&solution, &Elasticity::default());
+    let found = start.bounds(solution, &Elasticity::default());
     let samples: Vec<Vec<f64>> = compliances(part, numbers)
         .iter()
         .map(|c| loads.shared(c))

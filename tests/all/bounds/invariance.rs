@@ -31,7 +31,7 @@ fn bounds_do_not_depend_on_the_axes_of_the_scene() {
         let study = study(&lid(angle, order));
         let start = study.analyse(0.0, None).expect("small");
         let solution = start.solution().expect("decided");
-        let found = start.bounds(&solution, &Elasticity::default());
+        let found = start.bounds(solution, &Elasticity::default());
         let of = |k: usize| {
             let (id, _) = (order.iter().position(|j| *j == k).expect("listed"), ());
             found.largest_magnitudes(ConstraintId(id)).expect("bounds")[0].expect("a force")
@@ -79,7 +79,7 @@ fn a_centre_of_stiffness_decides_where_a_moment_gives_way() {
         let study = study(text);
         let start = study.analyse(0.0, None).expect("small");
         let solution = start.solution().expect("decided");
-        let bounds = start.bounds(&solution, &Elasticity::default());
+        let bounds = start.bounds(solution, &Elasticity::default());
         let components = ["Fx", "Fy", "Fz"];
         let mut all: Vec<[f64; 2]> = components
             .map(|name| {

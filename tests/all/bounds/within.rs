@@ -40,8 +40,8 @@ fn bounds_within_a_factor_are_those_of_corners() {
             moment: soft(),
         };
         let nominal: Vec<NominalCompliance> = layout.constraint_ids().map(nominal).collect();
-        let found = start.bounds(&solution, &within(factor, Some(nominal.clone())));
-        let wide = start.bounds(&solution, &Elasticity::default());
+        let found = start.bounds(solution, &within(factor, Some(nominal.clone())));
+        let wide = start.bounds(solution, &Elasticity::default());
         let compliances = |of: &dyn Fn(ElasticLoad) -> f64| {
             let joints = nominal.iter().map(|c| {
                 let load = |is_moment| ElasticLoad {
@@ -127,10 +127,10 @@ fn forces_and_moments_need_nominal_compliances() {
     let start = study.analyse(0.0, None).expect("small");
     let solution = start.solution().expect("decided");
     let group = Group::WrenchSum(vec![(1.0, ConstraintId(1))]);
-    let found = start.bounds(&solution, &within(2.0, None));
+    let found = start.bounds(solution, &within(2.0, None));
     let refused = found.group(&group).expect_err("a force and a moment");
     assert!(matches!(refused, BoundsError::Mixed { .. }), "{refused}");
-    let found = start.bounds(&solution, &within(2.0, Some(Vec::new())));
+    let found = start.bounds(solution, &within(2.0, Some(Vec::new())));
     let refused = found.group(&group).expect_err("no joint gives way");
     assert!(
         refused.to_string().contains("one load component"),
@@ -143,7 +143,7 @@ fn forces_and_moments_need_nominal_compliances() {
         moment,
     };
     let nominal = vec![nominal(0, 1.0, 2.0), nominal(1, 3.0, 0.0)];
-    let found = start.bounds(&solution, &within(2.0, Some(nominal)));
+    let found = start.bounds(solution, &within(2.0, Some(nominal)));
     let [lowest, highest] = [
         (1.0 + 2.0 / 4.0) / (6.0 + 1.0 + 2.0),
         (2.0 + 2.0 / 4.0) / (3.0 + 2.0 + 2.0),
@@ -161,7 +161,7 @@ fn a_table_on_similar_legs() {
     let solution = start.solution().expect("decided");
     let (z, f_0) = ([1.0, -1.0, 1.0, -1.0], [-34.335, -39.24, 0.0, -44.145]);
     for factor in [1.2_f64, 2.0] {
-        let found = start.bounds(&solution, &within(factor, None));
+        let found = start.bounds(solution, &within(factor, None));
         let corners = (0..16).map(|corner: usize| {
             let c: Vec<f64> = (0..4)
                 .map(|k| if corner >> k & 1 == 1 { factor } else { 1.0 })
@@ -184,7 +184,7 @@ fn a_table_on_similar_legs() {
             assert!((end - published).abs() < 0.06, "{ends:?}");
         }
     }
-    let found = start.bounds(&solution, &Elasticity::default());
+    let found = start.bounds(solution, &Elasticity::default());
     let mut numbers = Numbers::new(5);
     for _ in 0..200 {
         let laws: Vec<[f64; 3]> = (0..4)

@@ -218,9 +218,17 @@ fn a_centre_that_is_too_low_is_named() {
     };
     assert_eq!(told(0.5, "[0, 1, 0]"), "a start");
     for (height, axis, words) in [
-        (0.05, "[0, 1, 0]", "its centre farther off than `tube`"),
-        (-0.3, "[0, 1, 0]", "its centre farther off than `tube`"),
-        (0.5, "[0, 0, 1]", "does not lie flat"),
+        (
+            0.05,
+            "[0, 1, 0]",
+            "and the distance of its centre is larger than `tube`",
+        ),
+        (
+            -0.3,
+            "[0, 1, 0]",
+            "and the distance of its centre is larger than `tube`",
+        ),
+        (0.5, "[0, 0, 1]", "is not parallel to the ground"),
     ] {
         let found = told(height, axis);
         assert!(found.contains(words), "{height}: {found}");

@@ -22,7 +22,7 @@ COLOURS = {
 }
 MARKERS = {"pfaff": "o", "exudyn": "s", "mujoco": "^", "drake": "D", "pinocchio": "v"}
 LARGEST = 30.0
-"""Errors are drawn up to this one (m), which stands for all that failed."""
+"""Largest drawn error (m); failed runs are drawn at this value."""
 
 
 def panel(axes: plt.Axes, problem: report.Problem, listed: list[report.Line]) -> None:

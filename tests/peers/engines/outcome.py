@@ -29,7 +29,7 @@ class Outcome:
 Run = Callable[[], Outcome]
 
 FAR = 1e3
-"""Places farther than this from the origin are those of a run that has blown up (m)."""
+"""Distance from the origin (m) above which a run counts as diverged."""
 
 
 def sampled(count: int, advance: Callable[[int], None], places: Callable[[], Array]) -> Outcome:

@@ -1,4 +1,4 @@
-"""Measures engines of mechanics side by side and writes the report.
+"""Compares engines of mechanics and writes the report.
 
 usage: python tests/peers/engines/run.py --out docs/reports/engines [--quick] [--fresh]
 

@@ -18,7 +18,7 @@ pub(crate) fn with_tables(page: &str, questions: &[Question]) -> Result<String, 
         let end = "<!-- end of options -->\n";
         let missing = || {
             format!(
-                "{PATH}: there is no `{}`, then `{}`",
+                "{PATH} lacks `{}`, followed by `{}`",
                 begin.trim(),
                 end.trim()
             )

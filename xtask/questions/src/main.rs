@@ -55,7 +55,7 @@ fn check() -> Result<String, String> {
             let same = found.lines().zip(text.lines()).take_while(|(a, b)| a == b);
             let line = same.count() + 1;
             return Err(format!(
-                "{path}:{line}: does not follow from the list of questions; `cargo xtask questions` writes it anew"
+                "{path}:{line}: differs from the list of questions; `cargo xtask questions` writes the file again"
             ));
         }
     }

@@ -129,7 +129,7 @@ fn kind(schema: &Value, options: &Value) -> (Kind, bool) {
         Some("string") => Kind::Text,
         Some("array") if schema["items"]["type"] == "integer" => Kind::Rows,
         Some("array") if schema["items"]["type"] == "string" => Kind::Texts,
-        _ => panic!("an option of this type is not known: {schema}"),
+        _ => panic!("options of this type are not supported: {schema}"),
     };
     (of, optional)
 }

@@ -35,12 +35,13 @@ from ._answer import Answer, Common
 const CLASS: &str = r#"
 
 class Questions:
-    """The questions that are asked of a scene: methods of :class:`Scene`.
+    """Questions about a scene: methods of :class:`Scene`.
 
-    All take the same last keywords. ``tolerance`` (m) and ``angle_tolerance`` (rad) say what the
-    numbers of the scene are known to, in place of those of the scene. ``max_memory`` (bytes, or as
-    ``"4GB"``) refuses what needs more; ``threads`` is the number of threads, by default one for
-    each core. ``out`` is a directory for the files of the command of the same name.
+    All methods accept the same final keywords. ``tolerance`` (m) and ``angle_tolerance`` (rad)
+    state the accuracy of the numbers of the scene and replace the tolerances of the scene.
+    ``max_memory`` (bytes, or as ``"4GB"``) rejects computations that need more; ``threads`` is the
+    number of threads, by default one for each core. ``out`` is a directory for the files of the
+    command of the same name.
     """
 
     __slots__ = ()

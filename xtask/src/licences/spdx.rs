@@ -4,7 +4,7 @@
 pub(super) const ALLOWED: [(&str, &str); 11] = [
     (
         "MIT",
-        "asks for its text and the names of the authors, which stand below",
+        "requires its text and the names of the authors, listed below",
     ),
     (
         "Apache-2.0",
@@ -12,7 +12,7 @@ pub(super) const ALLOWED: [(&str, &str); 11] = [
     ),
     (
         "Zlib",
-        "asks that changed sources are marked; none are changed",
+        "requires marks in changed sources; no source was changed",
     ),
     ("BSD-2-Clause", "as MIT"),
     (

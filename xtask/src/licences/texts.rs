@@ -40,7 +40,7 @@ pub(super) fn texts<'p>(
         let Package { name, version, .. } = package;
         let source = sources.get(&(name.clone(), version.clone()));
         let source =
-            source.ok_or_else(|| format!("cargo metadata does not know {name} {version}"))?;
+            source.ok_or_else(|| format!("cargo metadata does not contain {name} {version}"))?;
         let folder = Path::new(&source.manifest)
             .parent()
             .unwrap_or(Path::new("."));
