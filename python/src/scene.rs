@@ -525,7 +525,9 @@ impl Scene {
                 ))
             })?;
             if let (Some(_), Form::Page | Form::Svg) = (scale, form) {
-                return Err(wrong("--scale requires a file name that ends with .png".to_owned()));
+                return Err(wrong(
+                    "--scale requires a file name that ends with .png".to_owned(),
+                ));
             }
             let start = own.start(common.tolerance(), common.budget()?);
             let drawing = Drawing::new(&start, form, scale, &Control::quiet())?;

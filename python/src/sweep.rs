@@ -8,8 +8,8 @@ use std::time::{Duration, Instant};
 
 use numpy::IntoPyArray;
 use pfaff::refusal::{Refusal, json};
-use pfaff::report::sweep::{Cell, Extent, Kind, Records, Shards};
 use pfaff::report::SweepDocument;
+use pfaff::report::sweep::{Cell, Extent, Kind, Records, Shards};
 use pfaff::sweep::{Axis, Shard, SweepError, SweepProgress, SweepSettings, Tables};
 use pyo3::prelude::*;
 use pyo3::types::PyList;
