@@ -492,7 +492,7 @@ def test_pages(tmp_path: Path) -> None:
         scene.simulate(10.0, max_steps=3)
     assert raised.value.run is not None and raised.value.code is not None
     raised.value.run.report(tmp_path / "stopped.html")
-    assert "3 steps done" in (tmp_path / "stopped.html").read_text(encoding="utf-8")
+    assert "3 steps ended" in (tmp_path / "stopped.html").read_text(encoding="utf-8")
     with pytest.raises(pfaff.ComputationError):
         scene.report(tmp_path / "own.html", t_end=10.0, max_steps=3)
     assert (tmp_path / "own.html").exists()

@@ -409,7 +409,7 @@ def test_templates_begin_scenes(tmp_path: Path) -> None:
     for wrong in ("door.pdf", "door"):
         with pytest.raises(pfaff.InputError, match=r"\.html, \.svg or \.png"):
             door.view(tmp_path / wrong)
-    with pytest.raises(pfaff.InputError, match="scale is for"):
+    with pytest.raises(pfaff.InputError, match="scale requires a file name"):
         door.view(tmp_path / "door.svg", scale=2.0)
 
 

@@ -113,7 +113,7 @@ def test_wrong_sweeps_are_refused(tmp_path: Path, command: Command) -> None:
     assert "there is no `bib`" in refused("P0501", vary={"body.bib.mass": [1, 2]})
     assert "is not KEY=FROM:TO:N" in refused("P0502", vary="body.bob.mass")
     assert "need a number or a text" in refused("P0001", vary={"body.bob.mass": [None]})
-    assert "none of the 2 runs can begin" in refused("P0503", vary="body.bob.mass=-1,-2")
+    assert "all 2 runs fail at the start" in refused("P0503", vary="body.bob.mass=-1,-2")
     assert "client is `int`" in refused("P0001", client=3, out=tmp_path)
     with ThreadPoolExecutor(1) as executor:
         assert "all workers see" in refused("P0001", client=executor)
