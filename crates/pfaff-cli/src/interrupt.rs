@@ -21,8 +21,12 @@ const INTERRUPTED: i32 = 1;
 /// less than a second, after which users press Ctrl-C again.
 const GRACE: Duration = Duration::from_millis(600);
 
-/// Time for the last action of a command that has to be ended.
+/// Time for the last action of a command that has not ended itself.
 const LAST_ACT: Duration = Duration::from_millis(250);
+
+/// Time for the last action at a second request, which does not wait for the command. A disk that
+/// is busy with the files of others takes longer than [`LAST_ACT`] to rename a file.
+const LAST_ACT_AT_ONCE: Duration = GRACE.saturating_add(LAST_ACT);
 
 /// The last action of a command that is ended: it completes the files, and returns a text on the
 /// saved results.
@@ -47,6 +51,8 @@ enum Action {
 /// it.
 static ACTION: Mutex<Option<Action>> = Mutex::new(None);
 static AS_JSON: AtomicBool = AtomicBool::new(false);
+/// Whether a thread is ending the process.
+static IS_ENDING: AtomicBool = AtomicBool::new(false);
 /// Whether the command has printed its answer.
 static ANSWERED: AtomicBool = AtomicBool::new(false);
 
@@ -99,9 +105,15 @@ impl Interrupt {
 }
 
 impl Drop for Interrupt {
-    /// The command has ended, so no last action is needed.
+    /// The command has ended, so no last action is needed. A last action that has begun ends the
+    /// process: the command fails when its files are taken from it, and must not end it first.
     fn drop(&mut self) {
         let mut present = action();
+        if IS_ENDING.load(Ordering::Relaxed) {
+            drop(present);
+            thread::sleep(LAST_ACT_AT_ONCE);
+            return;
+        }
         let is_own = |action: &Action| matches!(action, Action::Hear { asked, .. } if Arc::ptr_eq(asked, &self.0));
         if present.as_ref().is_some_and(is_own) {
             *present = Some(Action::End(INTERRUPTED, ""));
@@ -144,23 +156,23 @@ fn heard() {
         None => process::exit(INTERRUPTED),
         Some(Action::End(code, words)) => {
             let (code, words) = (*code, *words);
-            drop(present);
-            end(code, move || words.to_owned());
+            end(present, code, LAST_ACT, move || words.to_owned());
         }
         Some(Action::Hear { asked, last_act }) => {
             let (asked, last_act) = (Arc::clone(asked), Arc::clone(last_act));
-            drop(present);
             if asked.swap(true, Ordering::Relaxed) {
-                end(INTERRUPTED, move || last_act());
+                end(present, INTERRUPTED, LAST_ACT_AT_ONCE, move || last_act());
             }
+            drop(present);
             let late = move || {
                 thread::sleep(GRACE);
+                let present = action();
                 let is_present = matches!(
-                    action().as_ref(),
+                    present.as_ref(),
                     Some(Action::Hear { asked: present, .. }) if Arc::ptr_eq(present, &asked)
                 );
                 if is_present {
-                    end(INTERRUPTED, move || last_act());
+                    end(present, INTERRUPTED, LAST_ACT, move || last_act());
                 }
             };
             if thread::Builder::new().spawn(late).is_err() {
@@ -170,8 +182,19 @@ fn heard() {
     }
 }
 
-/// Ends the process after its last action and its last message, if there is enough time for them.
-fn end(code: i32, last_act: impl FnOnce() -> String + Send + 'static) -> ! {
+/// Ends the process after its last action and its last message, if they take less than `limit`.
+fn end(
+    present: MutexGuard<'_, Option<Action>>,
+    code: i32,
+    limit: Duration,
+    last_act: impl FnOnce() -> String + Send + 'static,
+) -> ! {
+    let is_first = !IS_ENDING.swap(true, Ordering::Relaxed);
+    drop(present);
+    if !is_first {
+        // The thread with the first last action ends the process.
+        thread::sleep(LAST_ACT_AT_ONCE);
+    }
     let (done, is_done) = channel();
     let act = move || {
         say(&last_act());
@@ -179,7 +202,7 @@ fn end(code: i32, last_act: impl FnOnce() -> String + Send + 'static) -> ! {
         let _ = done.send(());
     };
     if thread::Builder::new().spawn(act).is_ok() {
-        let _ = is_done.recv_timeout(LAST_ACT);
+        let _ = is_done.recv_timeout(limit);
     }
     process::exit(code)
 }
