@@ -7,6 +7,7 @@ mod friction;
 mod instants;
 mod invariance;
 mod oracle;
+mod questions;
 mod random;
 mod supports;
 mod unusual;

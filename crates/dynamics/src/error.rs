@@ -5,7 +5,7 @@ mod rows;
 use integrators::IntegrationError;
 use linalg::{SaddleError, SingularPivot};
 use model::codes::Code;
-use model::words::{listed, rough, rounded, short};
+use model::words::{clause, listed, rough, rounded, short};
 use model::{CalledForce, RowLabel, StartError, UndefinedForce};
 use rank::Doubt;
 use solvability::{AnalysisError, Contradiction, DriveLimit, NoFiniteReaction, StateError};
@@ -173,7 +173,7 @@ pub enum MotionFault {
     #[error(
         "at t = {t} s {who}: no sharing of the loads presses on all one-sided joints any more; end the run before, or \
          leave out `one_sided` to compute the motion of contacts that pull",
-        t = rounded(*time), who = open(joints))]
+        t = rounded(*time), who = clause(joints, ["opens", "open"]))]
     Opens {
         /// Time (s).
         time: f64,
@@ -260,13 +260,6 @@ pub enum MotionFault {
         /// Cause.
         source: SaddleError,
     },
-}
-
-/// Names joints that open.
-fn open(joints: &[String]) -> String {
-    let names: Vec<String> = joints.iter().map(|name| format!("`{name}`")).collect();
-    let verb = if joints.len() == 1 { "opens" } else { "open" };
-    format!("{} {verb}", listed(&names))
 }
 
 impl MotionFault {

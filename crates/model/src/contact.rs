@@ -1,6 +1,8 @@
 //! What a contact cannot do: a joint that pushes but does not pull, and a contact that slips if the
 //! force along it is too large for the force that presses it.
 
+use crate::words::{quantity, short};
+
 /// The side of a joint with one gap Φ on which its bodies can part.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
@@ -53,4 +55,31 @@ pub struct ContactLimits {
     pub open_side: Option<OpenSide>,
     /// The condition that the contact does not slip.
     pub grip: Option<Grip>,
+}
+
+impl ContactLimits {
+    /// Returns whether the joint can do everything.
+    #[must_use]
+    pub fn is_none(&self) -> bool {
+        *self == Self::default()
+    }
+
+    /// States what the joint cannot do; `None` if it can do everything.
+    #[must_use]
+    pub fn in_words(&self) -> Option<String> {
+        let side = self.open_side.map(|side| match side {
+            OpenSide::Positive => "one-sided (gap ≥ 0)".to_owned(),
+            OpenSide::Negative => "one-sided (gap ≤ 0)".to_owned(),
+        });
+        let grip = self.grip.as_ref().map(|grip| {
+            let load = match &grip.load {
+                GripLoad::Own => "its own load".to_owned(),
+                GripLoad::Constant(load) => quantity(*load, "N"),
+                GripLoad::Joint(name) => format!("the load of `{name}`"),
+            };
+            format!("grips with μ = {} under {load}", short(grip.friction))
+        });
+        let all: Vec<String> = side.into_iter().chain(grip).collect();
+        (!all.is_empty()).then(|| all.join(", "))
+    }
 }

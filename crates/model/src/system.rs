@@ -110,6 +110,12 @@ impl Layout {
         self.m + self.h
     }
 
+    /// Returns whether a joint is one-sided or can slip.
+    #[must_use]
+    pub fn has_contact_limits(&self) -> bool {
+        !self.groups.iter().all(|group| group.limits.is_none())
+    }
+
     /// Returns the range of the unwrapped angles in the coordinates.
     pub(crate) fn angles(&self) -> std::ops::Range<usize> {
         self.n_q - self.turns..self.n_q

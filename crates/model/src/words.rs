@@ -32,6 +32,31 @@ pub fn listed<S: AsRef<str>>(names: &[S]) -> String {
     }
 }
 
+/// Returns names in grave accents.
+fn in_accents<S: AsRef<str>>(names: &[S]) -> Vec<String> {
+    let each = names.iter();
+    each.map(|name| format!("`{}`", name.as_ref())).collect()
+}
+
+/// Formats names in grave accents, such as `` `A`, `B` ``.
+#[must_use]
+pub fn marked<S: AsRef<str>>(names: &[S]) -> String {
+    in_accents(names).join(", ")
+}
+
+/// States what these joints or bodies do, with the verb for one name and for several names.
+///
+/// ```
+/// use pfaff_model::words::clause;
+/// assert_eq!(clause(&["A"], ["opens", "open"]), "`A` opens");
+/// assert_eq!(clause(&["A", "B"], ["opens", "open"]), "`A`, `B` open");
+/// ```
+#[must_use]
+pub fn clause<S: AsRef<str>>(names: &[S], [one, several]: [&str; 2]) -> String {
+    let verb = if names.len() == 1 { one } else { several };
+    format!("{} {verb}", listed(&in_accents(names)))
+}
+
 /// Returns a number with six significant digits, as a scene accepts it.
 ///
 /// ```

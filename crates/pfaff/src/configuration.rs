@@ -10,15 +10,15 @@ use std::sync::{Arc, OnceLock};
 
 use linalg::Matrix;
 use model::start::scene_size;
-use model::{ConfigurationAccuracy, ConstraintId, ContactLimits, Mechanism, System, is_at_rest};
+use model::{ConfigurationAccuracy, ConstraintId, Mechanism, System, is_at_rest};
 use rank::Limits;
 use scene::Scene;
 use solvability::{
-    Analysis, Centres, Choice, ChoiceError, Continuation, Contradiction, DeletableRows,
-    Distribution, ElasticSupports, Elasticity, EliminationError, Explanation, FrameVerdict,
-    Freedoms, Generic, GenericVerdict, Group, GroupVerdict, MomentVerdict, NamedChoice,
-    NoFiniteReaction, Numbers, PermittedError, PermittedReactions, Proposals, Questions,
-    ReactionBounds, ReactionNumber, ReactionValues, ReactionVerdict, Replacements, Rows,
+    Analysis, Centres, Choice, ChoiceError, ContactCondition, Continuation, Contradiction,
+    DeletableRows, Distribution, ElasticSupports, Elasticity, EliminationError, Explanation,
+    FrameVerdict, Freedoms, Generic, GenericVerdict, Group, GroupVerdict, MomentVerdict,
+    NamedChoice, NoFiniteReaction, Numbers, PermittedError, PermittedReactions, Proposals,
+    Questions, ReactionBounds, ReactionNumber, ReactionValues, ReactionVerdict, Replacements, Rows,
     Sensitivities, Sensitivity, Solution, State, analyse_decided, analyse_dropping,
     analyse_with_progress, generic, generic_with_verdicts, is_locked, no_finite_reactions,
     second_order, solution,
@@ -507,6 +507,19 @@ impl<'a> ConfigurationAnalysis<'a> {
         Ok(found)
     }
 
+    /// Returns the conditions of contacts that a distribution violates.
+    ///
+    /// # Errors
+    /// [`PermittedError`]
+    pub fn violated(
+        &self,
+        distribution: &Distribution,
+    ) -> Result<Vec<ContactCondition>, PermittedError> {
+        let solution = self.solution();
+        let solution = solution.map_err(|e| PermittedError::Accelerations(e.to_string()))?;
+        self.questions.violated(solution, distribution)
+    }
+
     /// Returns the components of all reactions with their verdicts, without values for the
     /// components that are not determined.
     ///
@@ -539,14 +552,6 @@ impl<'a> ConfigurationAnalysis<'a> {
             ..elasticity.clone()
         };
         self.questions.bounds(solution, &elasticity)
-    }
-
-    /// Returns whether a joint is one-sided or can slip.
-    pub(crate) fn has_contact_limits(&self) -> bool {
-        let limits = self.mechanism.layout().groups.iter().map(|g| &g.limits);
-        limits
-            .into_iter()
-            .any(|limits| *limits != ContactLimits::default())
     }
 
     /// Returns the loads that one-sided joints and contacts that grip permit, from one solution;

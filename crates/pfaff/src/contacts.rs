@@ -1,9 +1,10 @@
 //! The loads that contacts permit: joints that only push or pull, and contacts that grip.
 
 mod answer;
+mod fault;
 mod tips;
 
-use model::words::listed;
+use model::words::{clause, listed, marked};
 use model::{ConstraintId, Layout, System};
 use report::ByName;
 use solvability::{Group, PermittedError, PermittedReactions, Solution, Term, lifted};
@@ -12,11 +13,13 @@ pub use answer::{
     CertificateDocument, ConditionDocument, ContactsDocument, GripDocument, PermittedRangeDocument,
 };
 
+pub(crate) use fault::violated;
+
 use crate::configuration::ConfigurationAnalysis;
 use crate::documents::AnalysisDocument;
 use crate::error::StudyError;
-use crate::words::{Block, Cell, load_unit, marked};
-use tips::{opening, tips};
+use crate::words::{Block, Cell, load_unit};
+use tips::tips;
 
 /// Describes the loads that contacts permit; `None` without one-sided joints and grip.
 pub(crate) fn blocks(d: &AnalysisDocument) -> Option<Vec<Block>> {
@@ -28,7 +31,7 @@ pub(crate) fn blocks(d: &AnalysisDocument) -> Option<Vec<Block>> {
     if !answer.lifts.is_empty() {
         out.push(Block::sentence(format!(
             "{} now: the reactions above are not those of the motion that follows",
-            opening(&answer.lifts)
+            clause(&answer.lifts, ["opens", "open"])
         )));
     }
     out.extend(ranges(d));
@@ -50,7 +53,7 @@ pub(crate) fn add(
     of: &ConfigurationAnalysis<'_>,
     document: &mut AnalysisDocument,
 ) -> Result<(), StudyError> {
-    if !of.has_contact_limits() {
+    if !of.mechanism.layout().has_contact_limits() {
         return Ok(());
     }
     let mut answer = ContactsDocument::default();

@@ -54,9 +54,9 @@ pub use run::{
 pub use sensitivity::SensitivityDocument;
 pub use tolerance::{
     BoundsOfSamples, DescribedDocument, DrawnDocument, FailureDocument, MarkerRangeDocument,
-    MeasureRangeDocument, MovedDocument, OpeningsDocument, QuantityRangeDocument,
-    RankCountDocument, ReactionRangeDocument, RowMisfitDocument, ToleranceDocument, VariedDocument,
-    VerdictCounts,
+    MeasureRangeDocument, MovedDocument, OpeningsDocument, PermittedOfSamples,
+    QuantityRangeDocument, RankCountDocument, ReactionRangeDocument, RowMisfitDocument,
+    ToleranceDocument, VariedDocument, VerdictCounts,
 };
 pub use verdicts::{
     MagnitudePeakDocument, PeakDocument, RunGroupDocument, RunNumberDocument, RunReactionDocument,

@@ -1,5 +1,6 @@
 //! Errors of computations that give no results or only partial results.
 
+use crate::contact_fault::ContactFault;
 use crate::documents::RunDocument;
 use dynamics::equilibrium::EquilibriumError;
 use dynamics::linearise::LineariseError;
@@ -129,6 +130,14 @@ pub enum StudyError {
     /// No equilibrium was found.
     #[error(transparent)]
     Equilibrium(#[from] EquilibriumError),
+    /// Contacts do not all stay closed and hold where the answer needs them closed.
+    #[error("at {place} {fault}")]
+    Contacts {
+        /// The configuration.
+        place: String,
+        /// The contacts.
+        fault: ContactFault,
+    },
     /// A configuration could not be analysed.
     #[error(transparent)]
     Analysis(#[from] AnalysisError),
@@ -187,6 +196,7 @@ impl StudyError {
             Self::Interrupted => const { Code::new(8) },
             Self::Linearise(e) => e.code(),
             Self::Equilibrium(e) => e.code(),
+            Self::Contacts { .. } => OPENING,
             Self::Analysis(e) => e.code(),
             Self::State(e) => e.code(),
             Self::Explanation(e) => e.code(),
@@ -269,6 +279,7 @@ impl StudyError {
             Self::State(_)
             | Self::Stopped { .. }
             | Self::Interrupted
+            | Self::Contacts { .. }
             | Self::Explanation(_)
             | Self::Table(_) => false,
         }

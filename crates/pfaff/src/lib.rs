@@ -39,6 +39,7 @@ pub mod choice;
 pub mod command;
 mod comparison;
 pub mod configuration;
+pub mod contact_fault;
 pub mod contacts;
 pub mod documents;
 pub mod elasticity;

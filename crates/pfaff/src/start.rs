@@ -248,6 +248,7 @@ pub fn document_of(
     let name = configuration.scene.name();
     let mut document = AnalysisDocument::new(name, &configuration.analysis, None)
         .with_freedoms(configuration.freedoms()?, configuration.mechanism);
+    document.add_contacts(layout);
     if let Some(explanation) = configuration.explanation()? {
         document.explain(&explanation, layout);
     }

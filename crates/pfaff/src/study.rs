@@ -18,6 +18,7 @@ use dynamics::{
     Sample, Stop, Summary, simulate_until,
 };
 use model::start::assemble;
+use model::words::rounded;
 use model::{
     AnyDescription, ConfigurationAccuracy, ConstraintId, FramePose, Load, Reaction, Registry,
     StartError, StartPose, System,
@@ -196,7 +197,7 @@ impl Study {
     }
 
     /// Analyses the state of the motion at t.
-    fn analyse_state(
+    pub(crate) fn analyse_state(
         &self,
         t: f64,
         state: State,
@@ -228,12 +229,32 @@ impl Study {
         }
     }
 
+    /// Checks that all contacts stay closed and hold at a state. `place` names the state.
+    ///
+    /// # Errors
+    /// [`StudyError::Contacts`], and the errors of [`Study::analyse`].
+    pub(crate) fn check_contacts(
+        &self,
+        (t, state): (f64, State),
+        place: &str,
+    ) -> Result<(), StudyError> {
+        if !self.prepared.mechanism.layout().has_contact_limits() {
+            return Ok(());
+        }
+        let there = self.analyse_state(t, state, None, |_| ())?;
+        there.contact_fault()?.map_or(Ok(()), |fault| {
+            let place = place.to_owned();
+            Err(StudyError::Contacts { place, fault })
+        })
+    }
+
     /// Linearises the motion about the state at a time of the motion, which must be at rest or in
     /// steady motion; at t = 0 no run is needed. At rest, functions of time have their constant
     /// values at t.
     ///
     /// # Errors
-    /// Returns an error if the motion does not reach that time, and the errors of [`linearise`].
+    /// Returns an error if the motion does not reach that time, the errors of [`linearise`], and
+    /// [`StudyError::Contacts`] if contacts do not stay closed or slip there.
     pub fn linearise(
         &self,
         t: f64,
@@ -254,8 +275,10 @@ impl Study {
         options: &LineariseOptions,
         stop: &Stop<'_>,
     ) -> Result<Linearisation, StudyError> {
-        let State { q, v } = self.state_until(t, stop)?;
-        Ok(linearise(&self.prepared, (t, &q, &v), options)?)
+        let state = self.state_until(t, stop)?;
+        let linearised = linearise(&self.prepared, (t, &state.q, &state.v), options)?;
+        self.check_contacts((t, state), &format!("the state at t = {} s", rounded(t)))?;
+        Ok(linearised)
     }
 
     /// Finds an equilibrium near the start, and returns it with the study of the same scene that
@@ -282,7 +305,8 @@ impl Study {
     /// ```
     ///
     /// # Errors
-    /// Returns the errors of [`equilibrium`], and an error if the mechanism cannot start there.
+    /// Returns the errors of [`equilibrium`], an error if the mechanism cannot start there, and
+    /// [`StudyError::Contacts`] if contacts do not stay closed or slip there.
     pub fn equilibrium(
         &self,
         options: &EquilibriumOptions,
@@ -306,6 +330,8 @@ impl Study {
                 break;
             }
         }
+        let held = there.held_at(found.time);
+        held.check_contacts((0.0, held.state_at(0.0)?), "the equilibrium")?;
         Ok((found, there))
     }
 

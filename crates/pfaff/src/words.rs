@@ -124,13 +124,6 @@ pub fn count_of_rows(holonomic: usize, nonholonomic: usize) -> String {
     }
 }
 
-/// Formats names in grave accents, such as `` `A`, `B` ``.
-#[must_use]
-pub fn marked(names: &[impl AsRef<str>]) -> String {
-    let names: Vec<String> = names.iter().map(|n| format!("`{}`", n.as_ref())).collect();
-    names.join(", ")
-}
-
 /// Returns the SI unit of a component of a reaction by its first letter; an empty text for other
 /// names, such as that of a sum.
 #[must_use]

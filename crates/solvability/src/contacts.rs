@@ -24,7 +24,7 @@ mod two_sided;
 
 use model::{ConstraintId, System};
 
-pub use carried::{CarriedContacts, Closure};
+pub use carried::{CarriedContacts, CarriedLoads, Closure};
 pub use conditions::{ConditionKind, ContactCondition};
 pub use error::PermittedError;
 pub use grip::{GripVerdict, Holds};
@@ -32,10 +32,11 @@ pub use lifts::{Liftoff, lifted, opened};
 pub use range::{PermittedEnd, PermittedRange, RangeKind};
 pub use two_sided::TwoSidedContacts;
 
-use crate::choices::Solution;
+use crate::choices::{ChosenValues, Distribution, Solution};
 use crate::groups::Group;
 use crate::polyhedra::polyhedron::Emptiness;
 use crate::questions::Questions;
+use crate::value::Value;
 use conditions::Cluster;
 
 /// The loads that the contacts of a configuration permit.
@@ -81,11 +82,7 @@ impl<'m> Questions<'m> {
         &'q self,
         solution: &'q Solution,
     ) -> Result<Option<PermittedReactions<'q, 'm>>, PermittedError> {
-        let groups = &self.mechanism().layout().groups;
-        let has_limits = |g: &model::reaction::ConstraintGroup| {
-            g.limits.open_side.is_some() || g.limits.grip.is_some()
-        };
-        if !groups.iter().any(has_limits) {
+        if !self.mechanism().layout().has_contact_limits() {
             return Ok(None);
         }
         let (clusters, cluster_of) = conditions::clusters(self, solution)?;
@@ -95,6 +92,28 @@ impl<'m> Questions<'m> {
             clusters,
             cluster_of,
         }))
+    }
+
+    /// Returns the conditions of contacts that a distribution violates: contacts do not permit it.
+    /// The accelerations are those of `solution`.
+    ///
+    /// # Errors
+    /// [`PermittedError`]
+    pub fn violated(
+        &self,
+        solution: &Solution,
+        distribution: &Distribution,
+    ) -> Result<Vec<ContactCondition>, PermittedError> {
+        // Multipliers without a finite value are refused before they are used.
+        let values = distribution.multipliers.iter().map(Value::in_solution);
+        let lambda = values.map(|value| value.unwrap_or(f64::NAN));
+        let chosen = Solution {
+            multipliers: ChosenValues::new(lambda.collect(), Vec::new()),
+            ..solution.clone()
+        };
+        let found = self.permitted(&chosen)?;
+        let clusters = found.iter().flat_map(|found| &found.clusters);
+        Ok(clusters.flat_map(Cluster::violated).collect())
     }
 }
 

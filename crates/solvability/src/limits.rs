@@ -711,7 +711,7 @@ pub(crate) const SAME_EFFECT: f64 = 1.01;
 /// Memory of a joint, drive or coupling with its verdict, its components and its name, including
 /// the result. Unit: bytes. Too small: memory is exhausted. Too large: runs are rejected. Test:
 /// none, work only.
-pub(crate) const OF_GROUP: usize = 6500;
+pub(crate) const OF_GROUP: usize = 8_500;
 
 /// Memory of a row with its verdict. Unit: bytes. Too small: memory is exhausted. Too large: runs
 /// are rejected. Test: none, work only.

@@ -23,7 +23,7 @@ const WEIGHT: f64 = 800.0;
 
 /// A ladder without weight on a floor and a wall, with a man at a share of its length. `wall` is
 /// the friction of the wall; a smooth wall has none.
-fn ladder(share: f64, floor: f64, wall: Option<f64>) -> String {
+pub(super) fn ladder(share: f64, floor: f64, wall: Option<f64>) -> String {
     let (x, y) = (LENGTH * ANGLE.cos(), LENGTH * ANGLE.sin());
     let wall = wall.map_or_else(String::new, |grip| {
         format!(

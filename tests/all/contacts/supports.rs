@@ -17,7 +17,7 @@ const LEGS: [(&str, [f64; 2]); 4] = [
 ];
 
 /// A table on four legs that only push, with its mass centre at these coordinates.
-fn table(centre: [f64; 2]) -> String {
+pub(super) fn table(centre: [f64; 2]) -> String {
     let [x, y] = centre;
     let leg = |(name, [x, y]): &(&str, [f64; 2])| {
         format!(

@@ -221,3 +221,144 @@ joint = [
         serde_json::json!({ "left": beyond })
     );
 }
+
+/// The words without line breaks.
+fn flat(text: &str) -> String {
+    text.split_whitespace().collect::<Vec<_>>().join(" ")
+}
+
+/// With its centre 0.2 m in front of C, the cart tips about C: A and B pull 4.905 N each.
+#[test]
+fn an_equilibrium_says_whether_its_contacts_pull() {
+    let answer = with_scene(&["equilibrium", "-"], &cart("", 1.2, ""));
+    assert!(answer.status.success(), "{}", stderr(&answer));
+    let text = flat(&stdout(&answer));
+    let warning =
+        "warning[P0186]: contacts pull: `A` at t = 0 s (4.905 N), `B` at t = 0 s (4.905 N);";
+    assert!(text.contains(warning), "{text}");
+    let sided = cart("", 1.2, ", one_sided = \"pushes\"");
+    for (command, place) in [
+        ("equilibrium", "the equilibrium"),
+        ("linearise", "the state at t = 0 s"),
+    ] {
+        let answer = with_scene(&[command, "-"], &sided);
+        assert_eq!(answer.status.code(), Some(1));
+        let text = flat(&stderr(&answer));
+        let refusal = format!("error[P0429]: at {place} `A`, `B` open: no sharing of the loads");
+        assert!(text.contains(&refusal), "{text}");
+    }
+    let closed = cart("", 0.8, ", one_sided = \"pushes\"");
+    for command in ["equilibrium", "linearise"] {
+        let answer = with_scene(&[command, "-"], &closed);
+        assert!(answer.status.success(), "{}", stderr(&answer));
+    }
+}
+
+/// A table at rest on four legs that only push.
+fn table(centre: [f64; 2], keys: &str) -> String {
+    let leg = |(name, at): (&str, [f64; 2])| {
+        format!(
+            "{{ name = \"{name}\", type = \"point-on-plane\", bodies = [\"ground\", \"top\"], at = [{:?}, {:?}, 0.0], \
+             normal = [0, 0, 1]{keys} }},\n",
+            at[0], at[1]
+        )
+    };
+    let legs = [
+        ("A", [0.6, 0.4]),
+        ("B", [-0.6, 0.4]),
+        ("C", [-0.6, -0.4]),
+        ("D", [0.6, -0.4]),
+    ];
+    format!(
+        "scene = {{ name = \"table\", space = \"spatial\", gravity = [0.0, 0.0, -9.81] }}\n\
+         body = [{{ name = \"top\", mass = 12.0, inertia = [1.0, 2.0, 2.5], position = [{:?}, {:?}, 0.7] }}]\n\
+         joint = [\n{}]\n",
+        centre[0],
+        centre[1],
+        legs.into_iter().map(leg).collect::<String>()
+    )
+}
+
+const SIDED: &str = ", one_sided = \"pushes\"";
+
+/// With the load above the edge AB, the least norm lets the leg C pull with 14.715 N.
+#[test]
+fn choices_that_contacts_do_not_permit_are_named() {
+    let ask = [
+        "analyze",
+        "-",
+        "--choose",
+        "minimum-norm",
+        "--choose",
+        "drop:3",
+    ];
+    let answer = with_scene(&ask, &table([0.3, 0.4], SIDED));
+    assert!(answer.status.success(), "{}", stderr(&answer));
+    let text = flat(&stdout(&answer));
+    let said = "; the contacts do not permit these reactions: `C` pulls choice 2:";
+    assert!(text.contains(said), "{text}");
+    assert_eq!(text.matches("do not permit").count(), 1, "{text}");
+    let answer = with_scene(&[&ask[..], &["--json"]].concat(), &table([0.3, 0.4], SIDED));
+    let document: Value = serde_json::from_slice(&answer.stdout).expect("JSON");
+    let of = |k: usize| document["choices"][k]["not_permitted"].clone();
+    assert_eq!(of(0), serde_json::json!(["`C` pulls"]));
+    assert!(of(1).is_null());
+}
+
+/// The four tables on three legs, by hand; errors of 1 µm change the loads by less than 1 mN.
+#[test]
+fn samples_have_the_ranges_that_contacts_permit() {
+    let scene = table([0.2, 0.1], SIDED);
+    let ask = ["tolerance", "-", "--tolerance", "1e-6", "--runs", "20"];
+    let answer = with_scene(&[&ask[..], &["--json"]].concat(), &scene);
+    assert!(answer.status.success(), "{}", stderr(&answer));
+    let document: Value = serde_json::from_slice(&answer.stdout).expect("JSON");
+    let expected = [
+        ("A", [34.335, 73.575]),
+        ("B", [0.0, 39.24]),
+        ("C", [0.0, 39.24]),
+        ("D", [4.905, 44.145]),
+    ];
+    let reactions = document["reactions"].as_array().expect("a list");
+    assert_eq!(reactions.len(), expected.len());
+    for (name, [least, most]) in expected {
+        let own = reactions.iter().find(|r| r["name"] == name).expect(name);
+        let values = own["values"].as_array().expect("numbers");
+        let along = values.iter().find(|value| value["name"] == "Fz");
+        let range = &along.expect("a component")["permitted"];
+        let [low, high] = ["lowest", "highest"].map(|end| range[end].as_f64().expect("a limit"));
+        // The ground is the first body, so reported reactions are the negative pushes.
+        let is_near = (low + most).abs() < 1e-3 && (high + least).abs() < 1e-3;
+        let is_wide = low <= -most + 1e-9 && high >= -least - 1e-9;
+        assert!(is_near && is_wide, "{name}: {range}");
+    }
+    let answer = with_scene(&ask, &scene);
+    let text = flat(&stdout(&answer));
+    let said = "Loads that the contacts permit, in all samples in which they stay closed: reaction what lowest (N) highest (N) ";
+    assert!(text.contains(said), "{text}");
+    let answer = with_scene(&[&ask[..], &["--json"]].concat(), &table([0.2, 0.1], ""));
+    let document: Value = serde_json::from_slice(&answer.stdout).expect("JSON");
+    assert!(document["reactions"][0]["values"][0]["permitted"].is_null());
+}
+
+#[test]
+fn differences_and_pictures_show_one_sided_joints() {
+    let folder = Folder::new("pulling-diff");
+    std::fs::create_dir_all(&folder.0).expect("writable");
+    let path = |name: &str| folder.0.join(name).display().to_string();
+    let (two, one) = (path("two.toml"), path("one.toml"));
+    std::fs::write(&two, table([0.2, 0.1], "")).expect("writable");
+    std::fs::write(&one, table([0.2, 0.1], SIDED)).expect("writable");
+    let answer = super::pfaff(&["diff", &two, &one]);
+    assert!(answer.status.success(), "{}", stderr(&answer));
+    let text = stdout(&answer);
+    let changed = text
+        .lines()
+        .filter(|line| line.contains("two-sided, ") && line.contains("one-sided (gap ≥ 0), "));
+    assert_eq!(changed.count(), 4, "{text}");
+    let picture = path("table.svg");
+    let answer = super::pfaff(&["view", &one, "--out", &picture, "--no-open"]);
+    assert!(answer.status.success(), "{}", stderr(&answer));
+    let svg = folder.read("table.svg");
+    assert!(svg.contains(">A 1 one-sided</text>"), "{svg}");
+}

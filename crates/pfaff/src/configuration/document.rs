@@ -84,6 +84,7 @@ impl ConfigurationAnalysis<'_> {
         document.warnings.extend(sensitivities.left_out);
         document.warnings.extend(self.scene.cautions());
         document.add_notes(self.mechanism.layout());
+        document.add_contacts(self.mechanism.layout());
         document.warnings.extend(only_here(&document, self));
         let has_drives = layout.groups.iter().any(|group| group.is_drive());
         let freedoms = &mut document.ranks.freedoms;

@@ -1,6 +1,6 @@
 //! The motion along which one-sided joints open, in words.
 
-use model::words::listed;
+use model::words::clause;
 use model::{BodyRef, ConstraintId, Mechanism, System};
 use solvability::Impossible;
 
@@ -22,23 +22,15 @@ pub(super) fn tips((mechanism, q): (&Mechanism, &[f64]), t: f64, proof: &Impossi
         [a, b] if turns() => format!("tips about the line `{a}`–`{b}`"),
         [one] if turns() => format!("tips about `{one}`"),
         [] => "moves".to_owned(),
-        [one] => format!("moves while `{one}` stays closed"),
-        more => format!("moves while {} stay closed", listed(&in_accents(more))),
+        more => format!(
+            "moves while {}",
+            clause(more, ["stays closed", "stay closed"])
+        ),
     };
     format!(
         "no sharing of the loads presses on all one-sided joints: it {motion}, and {}",
-        opening(&opened)
+        clause(&opened, ["opens", "open"])
     )
-}
-
-/// States that joints open.
-pub(super) fn opening(names: &[String]) -> String {
-    let verb = if names.len() == 1 { "opens" } else { "open" };
-    format!("{} {verb}", listed(&in_accents(names)))
-}
-
-fn in_accents(names: &[String]) -> Vec<String> {
-    names.iter().map(|name| format!("`{name}`")).collect()
 }
 
 /// Whether the motion is the rotation of one body about the places of the closed joints: it opens

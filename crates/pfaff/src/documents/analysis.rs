@@ -385,6 +385,13 @@ impl AnalysisDocument {
         self.notes = NoteDocument::all(layout);
     }
 
+    /// Adds what contacts cannot do.
+    pub fn add_contacts(&mut self, layout: &Layout) {
+        for (reaction, group) in self.reactions.iter_mut().zip(&layout.groups) {
+            reaction.contact = group.limits.in_words();
+        }
+    }
+
     /// Adds the point about which the moment of a reaction is unique.
     pub fn add_centre(&mut self, id: ConstraintId, space: SpaceKind, centre: [f64; 3]) {
         self.reactions[id.0].moment_unique_about = Some(components(space, centre));

@@ -225,6 +225,21 @@ pub struct QuantityRangeDocument {
     /// sample has bounds.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub bounds: Option<BoundsOfSamples>,
+    /// The range of a number that is not unique, over the loads that one-sided joints permit and
+    /// over all samples in which these joints stay closed; absent without a limit.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub permitted: Option<PermittedOfSamples>,
+}
+
+/// The range of a number over the loads that one-sided joints permit, in all samples in which these
+/// joints stay closed.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct PermittedOfSamples {
+    /// The smallest value (N, N·m); `null` if there is none.
+    pub lowest: Option<f64>,
+    /// The largest value (N, N·m); `null` if there is none.
+    pub highest: Option<f64>,
 }
 
 /// The smallest and the largest bound of a number over all samples.

@@ -70,6 +70,9 @@ pub struct RunReactionDocument {
     /// The verdict over the run; absent if no reactions were requested.
     #[serde(flatten)]
     pub of_run: Option<TrackDocument>,
+    /// What the joint cannot do: it is one-sided, or grips with a coefficient of friction.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub contact: Option<String>,
     /// Sensitivity of the reaction to the data at the start.
     #[serde(flatten)]
     pub data: SensitivityDocument,
@@ -344,6 +347,7 @@ impl RunReactionDocument {
         let found = run.and_then(|run| run.stretches.reactions.get(at_start.id.0));
         Self {
             of_run: found.map(|found| (&found.whole).into()),
+            contact: mechanism.layout().groups[at_start.id.0].limits.in_words(),
             data: SensitivityDocument::of(sensitivities, at_start.id, mechanism.layout()),
             at_start: (&at_start.wrench).into(),
             components: match (run, found) {

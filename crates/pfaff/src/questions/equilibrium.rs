@@ -5,12 +5,13 @@ mod words;
 
 use dynamics::equilibrium::EquilibriumOptions;
 use model::System;
-use report::ByName;
 use report::{Family, PROVENANCE};
 use serde::Deserialize;
 
+use answer::Reactions;
 pub use answer::{EquilibriumAnswer, ReactionAtRest, RestingBody};
 
+use crate::configuration::ConfigurationAnalysis;
 use crate::error::StudyError;
 use crate::question::{Answer, Control, Output, Place, Question, Writing};
 use crate::refusal::{Refusal, json};
@@ -54,8 +55,9 @@ impl Question for Equilibrium {
             stable: self.stable,
         };
         let (found, there) = study.equilibrium(&options).map_err(|e| of.refusal(e))?;
-        let reactions = reactions_at_rest(&there.held_at(found.time)).map_err(|e| e.to_string());
-        let mut answer = EquilibriumAnswer::new(&study, &found, reactions);
+        let rest = there.held_at(found.time);
+        let rest = rest.analyse(0.0, None).and_then(|rest| at_rest(&rest));
+        let mut answer = EquilibriumAnswer::new(&study, &found, rest.map_err(|e| e.to_string()));
         if control.wants_files {
             let text = study.text_at_rest(&found.q);
             let text = text.map_err(|e| Refusal::input(e.to_string()).coded(e.code()))?;
@@ -89,13 +91,13 @@ impl Answer for EquilibriumAnswer {
     }
 }
 
-/// Returns the reactions at the start of a study.
-fn reactions_at_rest(there: &Study) -> Result<ByName<ReactionAtRest>, StudyError> {
-    let configuration = there.analyse(0.0, None)?;
-    Ok(ReactionAtRest::all(
-        &configuration.analysis.reactions,
-        &configuration.determined_reactions()?,
-        &configuration.sensitivities()?,
-        configuration.mechanism.layout(),
-    ))
+/// Returns the reactions at a configuration.
+fn at_rest(of: &ConfigurationAnalysis<'_>) -> Result<Reactions, StudyError> {
+    let reactions = ReactionAtRest::all(
+        &of.analysis.reactions,
+        &of.determined_reactions()?,
+        &of.sensitivities()?,
+        of.mechanism.layout(),
+    );
+    Ok((reactions, of.pulls()))
 }

@@ -5,7 +5,7 @@ use model::start::KeepLevel;
 use model::{ConstraintId, DataBlock, DataUnit, Mechanism, System};
 use rank::Doubt;
 use scene::Scene;
-use solvability::{Configuration, Elasticity, RowDecision, rows_of_rank};
+use solvability::{CarriedContacts, Configuration, Elasticity, RowDecision, rows_of_rank};
 
 use super::error::ToleranceError;
 use super::quantity::Quantity;
@@ -73,6 +73,17 @@ pub(super) struct Nominal {
     pub(super) verdicts: Vec<&'static str>,
     /// The request for bounds, if there is one.
     pub(super) bounds: Option<SampleBounds>,
+    /// The one-sided joints, if there are any.
+    pub(super) contacts: Option<SampleContacts>,
+}
+
+/// The one-sided joints of all samples.
+pub(super) struct SampleContacts {
+    pub(super) joints: CarriedContacts,
+    /// One dependency of the rows of C for each redundant row, at the described configuration. In a
+    /// sample the rows are independent, or nearly so; the self-stresses of the mechanism that is
+    /// meant are those of the described configuration.
+    pub(super) dependencies: Vec<Vec<f64>>,
 }
 
 /// A request for bounds in each sample.
@@ -148,7 +159,7 @@ impl Nominal {
             .map(|c| layout.columns(c.body).start + c.dof)
             .collect();
         let missing = (0..layout.m).filter(|i| position_kept.binary_search(i).is_err());
-        Ok(Self {
+        let mut nominal = Self {
             scene: study.scene.name().to_owned(),
             t,
             kept_columns,
@@ -163,12 +174,15 @@ impl Nominal {
             quantities,
             verdicts,
             bounds: None,
+            contacts: None,
             base: Base {
                 q: state.q,
                 v: state.v,
             },
             mechanism: of_stated,
-        })
+        };
+        nominal.contacts = nominal.sample_contacts();
+        Ok(nominal)
     }
 }
 
@@ -274,8 +288,8 @@ impl Nominal {
         let observed = self.mechanism.frames().observed();
         let places = 2 * self.mechanism.bodies().len() + 3 * observed.markers.len();
         // A verdict consists of a pointer and a length.
-        let bounds = 2 * usize::from(self.bounds.is_some());
-        let of_reactions = (4 + bounds) * self.quantities.len() + 2 * self.reactions.len();
+        let ranges = usize::from(self.bounds.is_some()) + usize::from(self.contacts.is_some());
+        let of_reactions = (4 + 2 * ranges) * self.quantities.len() + 2 * self.reactions.len();
         // The last number accounts for the lists themselves.
         of_reactions + places + self.missing.len() + observed.measures.len() + 32
     }

@@ -125,6 +125,14 @@ impl Quantity {
         judged.fold("unique", worse)
     }
 
+    /// Returns the number as a linear form of the multipliers; `None` for a magnitude.
+    pub(super) fn form(&self, at: &Configuration<'_>) -> Option<LinearForm> {
+        match self.kind {
+            Kind::ByName | Kind::Component(_) => at.reactions().component(self.id, self.name).ok(),
+            Kind::Force | Kind::Torque => None,
+        }
+    }
+
     /// Returns the smallest and the largest value for elastic joints, NaN without bounds. A
     /// magnitude is at least zero.
     pub(super) fn bounds(

@@ -24,7 +24,7 @@ use scene::Scene;
 use super::draw::Stream;
 use super::failed::SampleFailure;
 use super::limits::SHARED;
-use super::nominal::{Base, DisplacedDatum, Nominal, SampleBounds};
+use super::nominal::{Base, DisplacedDatum, Nominal, SampleBounds, SampleContacts};
 use super::quantity::Quantity;
 use super::vary::VariedText;
 
@@ -89,6 +89,10 @@ pub struct AssembledSample {
     pub measures: Vec<f64>,
     /// The one-sided joints that open with the described redundancy; empty if all can stay closed.
     pub opened: Vec<ConstraintId>,
+    /// Ranges of the values over the loads that one-sided joints permit, with the described
+    /// redundancy: infinite without a limit, NaN if the joints open or if the range is not clear;
+    /// empty if no joint is one-sided, or if no row is redundant.
+    pub permitted: Vec<[f64; 2]>,
 }
 
 impl Nominal {
@@ -138,7 +142,7 @@ impl Nominal {
             self.with_exact_numbers(mechanism, (&s, &q, &v), &decision, &lambda);
         let of_kept = self.on_kept_rows(mechanism, &s, &q);
         let bounds = self.bounds_of((mechanism, &q), of_kept.as_ref(), &lambda);
-        let opened = self.opened((mechanism, &s, &q, &v), of_kept.as_ref(), &lambda);
+        let (opened, permitted) = self.carried((mechanism, &s, &q, &v), of_kept.as_ref(), &lambda);
         let of_kept = self.verdicts_of(mechanism, of_kept.as_ref());
         let numbers = self.numbers_of(mechanism, &s, &lambda).into_iter();
         let kept = numbers.zip(&of_kept).map(|(x, verdict)| match *verdict {
@@ -164,6 +168,7 @@ impl Nominal {
                 .map(|k| frames.measure(k, &q, &v))
                 .collect(),
             opened,
+            permitted,
         })
     }
 
@@ -352,23 +357,43 @@ impl Nominal {
         self.quantities.iter().map(verdict).collect()
     }
 
-    /// Prepares bounds for elastic joints. The self-stresses are those of the described
-    /// configuration.
-    pub(super) fn sample_bounds(&self, scene: Scene, elasticity: Elasticity) -> SampleBounds {
+    /// Returns the described configuration, if it has redundant rows and can be analysed.
+    fn described_configuration(&self) -> Option<Configuration<'static>> {
         let (mechanism, q) = (&self.mechanism, &self.base.q);
         let mut s = mechanism.scratch();
         mechanism.pose(self.t, q, &mut s);
         mechanism.c(&mut s);
-        let decision = self.described_decision(mechanism, &s, q);
+        let decision = self.described_decision(mechanism, &s, q)?;
+        Configuration::owned(mechanism, self.t, q, &decision).ok()
+    }
+
+    /// Prepares bounds for elastic joints. The self-stresses are those of the described
+    /// configuration.
+    pub(super) fn sample_bounds(&self, scene: Scene, elasticity: Elasticity) -> SampleBounds {
         SampleBounds {
-            configuration: decision
-                .and_then(|decision| Configuration::owned(mechanism, self.t, q, &decision).ok()),
+            configuration: self.described_configuration(),
             elasticity: Elasticity {
-                centres: centres(&scene, mechanism, q),
+                centres: centres(&scene, &self.mechanism, &self.base.q),
                 ..elasticity
             },
             scene,
         }
+    }
+
+    /// Prepares the one-sided joints, unless there are none or the described configuration cannot
+    /// be analysed.
+    pub(super) fn sample_contacts(&self) -> Option<SampleContacts> {
+        let joints = CarriedContacts::of(&self.mechanism)?;
+        let is_whole = self.kept.len() == self.mechanism.layout().rows();
+        let described = self.described_configuration();
+        if !is_whole && described.is_none() {
+            return None;
+        }
+        let dependencies = described.map_or_else(Vec::new, |at| at.solvability().dependencies());
+        Some(SampleContacts {
+            joints,
+            dependencies,
+        })
     }
 
     /// Returns bounds of the numbers with the described redundancy, if they are requested.
@@ -392,25 +417,33 @@ impl Nominal {
         self.quantities.iter().map(of).collect()
     }
 
-    /// Returns the one-sided joints that open with the described redundancy.
-    fn opened(
+    /// Returns the one-sided joints that open with the described redundancy, and the ranges of all
+    /// numbers over the loads that these joints permit.
+    fn carried(
         &self,
         (mechanism, s, q, v): (&Mechanism, &Scratch, &[f64], &[f64]),
         at: Option<&Configuration<'_>>,
         lambda: &[f64],
-    ) -> Vec<ConstraintId> {
-        let is_whole = self.kept.len() == mechanism.layout().rows();
-        let contacts = CarriedContacts::of(mechanism).filter(|_| is_whole || at.is_some());
-        let Some(contacts) = contacts else {
-            return Vec::new();
+    ) -> (Vec<ConstraintId>, Vec<[f64; 2]>) {
+        let Some(contacts) = &self.contacts else {
+            return (Vec::new(), Vec::new());
         };
-        let dependencies = at.map_or_else(Vec::new, |at| at.solvability().dependencies());
-        let loads = max_abs(&s.force);
-        let found = contacts.closure((mechanism, s), (lambda, loads), &dependencies);
-        match found.opening.as_slice() {
+        let solution = (lambda, max_abs(&s.force));
+        let carried = (contacts.joints).permitted((mechanism, s), solution, &contacts.dependencies);
+        let opening = match carried.closure().opening.as_slice() {
             [] => Vec::new(),
             opening => opened(mechanism, (self.t, q, v), opening),
-        }
+        };
+        let range = |quantity: &Quantity, at| {
+            let form = quantity.form(at)?;
+            carried.range(form.coefficients())
+        };
+        let ranges = at.map_or_else(Vec::new, |at| {
+            let each = self.quantities.iter();
+            each.map(|quantity| range(quantity, at).unwrap_or([f64::NAN; 2]))
+                .collect()
+        });
+        (opening, ranges)
     }
 
     /// Returns the verdicts with exact numbers at this configuration, and the numbers that are

@@ -4,9 +4,9 @@ use std::cmp::Reverse;
 
 use crate::documents::{
     BoundsOfSamples, DescribedDocument, DrawnDocument, FailureDocument, MarkerRangeDocument,
-    MeasureRangeDocument, MovedDocument, OpeningsDocument, QuantityRangeDocument, RangeDocument,
-    RankCountDocument, ReactionRangeDocument, RowMisfitDocument, ToleranceDocument, VariedDocument,
-    VerdictCounts,
+    MeasureRangeDocument, MovedDocument, OpeningsDocument, PermittedOfSamples,
+    QuantityRangeDocument, RangeDocument, RankCountDocument, ReactionRangeDocument,
+    RowMisfitDocument, ToleranceDocument, VariedDocument, VerdictCounts,
 };
 use model::words::{estimate, quantity, range as range_in, short};
 use model::{ConstraintId, DataUnit, System};
@@ -283,6 +283,7 @@ impl Nominal {
         let is_whole = determined == values.len();
         let range = is_whole.then(|| RangeDocument::of(values, told)).flatten();
         let bounds = bounds(good, k, clean);
+        let permitted = permitted(good, k, clean).filter(|_| !unique);
         let of_samples = good.iter().map(|(_, s)| s.of_kept[k]);
         let reason = match &range {
             Some(_) => None,
@@ -315,6 +316,7 @@ impl Nominal {
             },
             range,
             bounds,
+            permitted,
         }
     }
 
@@ -484,6 +486,27 @@ fn bounds(
         lowest: clean(over(0, f64::min)?),
         highest: clean(over(1, f64::max)?),
     })
+}
+
+/// Returns the range of a number over the loads that contacts permit, in all samples in which
+/// one-sided joints stay closed; `None` without a limit, or if the range of a sample is not clear.
+fn permitted(
+    good: &[(u64, &AssembledSample)],
+    k: usize,
+    clean: impl Fn(f64) -> f64,
+) -> Option<PermittedOfSamples> {
+    let closed = good.iter().filter(|(_, s)| s.opened.is_empty());
+    let each = closed.map(|(_, s)| s.permitted.get(k).copied());
+    let each: Vec<[f64; 2]> = each.collect::<Option<_>>()?;
+    if each.iter().flatten().any(|x| x.is_nan()) {
+        return None;
+    }
+    let over = |end: usize, of: fn(f64, f64) -> f64| {
+        let end = each.iter().map(|x| x[end]).reduce(of)?;
+        end.is_finite().then(|| clean(end))
+    };
+    let [lowest, highest] = [over(0, f64::min), over(1, f64::max)];
+    (lowest.is_some() || highest.is_some()).then_some(PermittedOfSamples { lowest, highest })
 }
 
 /// Counts the reasons of samples that could not be assembled, the most frequent one first.

@@ -427,6 +427,9 @@ impl Picture<'_> {
             .iter()
             .map(|group| match labels {
                 Labels::Names => group.name.clone(),
+                Labels::NamesAndRows if group.limits.open_side.is_some() => {
+                    format!("{} {} one-sided", group.name, group.rows)
+                }
                 Labels::NamesAndRows => format!("{} {}", group.name, group.rows),
             })
             .collect();

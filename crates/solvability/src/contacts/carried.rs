@@ -1,10 +1,10 @@
 //! Whether one-sided joints can all stay closed, along a motion whose rows are factored.
 
-use linalg::kernels::max_abs;
+use linalg::kernels::{dot, max_abs};
 use model::{ConstraintId, Mechanism, Scratch, System};
 
 use crate::polyhedra::Unclear;
-use crate::polyhedra::polyhedron::{Emptiness, HalfSpace, Polyhedron};
+use crate::polyhedra::polyhedron::{Emptiness, Extremum, HalfSpace, Polyhedron};
 
 /// The one-sided joints of a mechanism.
 pub struct CarriedContacts {
@@ -15,9 +15,6 @@ pub struct CarriedContacts {
 /// Whether one-sided joints can all stay closed at a state.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Closure {
-    /// The largest value of the smallest pressing force over all solutions (N, or N·s for
-    /// impulses), negative if some joint must open; `None` if it has no limit or is not clear.
-    pub depth: Option<f64>,
     /// Whether no solution presses on all joints, beyond rounding.
     pub is_open: bool,
     /// The joints that take part in opening, if they are clear.
@@ -45,23 +42,42 @@ impl CarriedContacts {
         (!joints.is_empty()).then_some(Self { joints })
     }
 
-    /// Decides whether the joints can stay closed at the state of the scratch, in which C has been
+    /// Decides whether the joints can stay closed; see [`Self::permitted`].
+    #[must_use]
+    pub fn closure(
+        &self,
+        at: (&Mechanism, &Scratch),
+        solution: (&[f64], f64),
+        dependencies: &[Vec<f64>],
+    ) -> Closure {
+        // Most states need no search: the solution itself presses on all joints.
+        let (mechanism, scratch) = at;
+        let presses = |&(id, row, sign): &(ConstraintId, usize, f64)| {
+            -sign * pressing_force(mechanism, scratch, id) * solution.0[row] >= 0.0
+        };
+        if self.joints.iter().all(presses) {
+            return Closure::default();
+        }
+        self.permitted(at, solution, dependencies).closure()
+    }
+
+    /// Returns the loads that the joints permit at the state of the scratch, in which C has been
     /// evaluated. `multipliers` is one solution (m + h) for forces or impulses, with the size of
     /// the loads, and `dependencies` contains one dependency of the rows of C for each redundant
     /// row (m + h each).
     #[must_use]
-    pub fn closure(
-        &self,
+    pub fn permitted<'a>(
+        &'a self,
         (mechanism, scratch): (&Mechanism, &Scratch),
-        (multipliers, loads): (&[f64], f64),
-        dependencies: &[Vec<f64>],
-    ) -> Closure {
-        let p = dependencies.len();
+        (multipliers, loads): (&'a [f64], f64),
+        dependencies: &'a [Vec<f64>],
+    ) -> CarriedLoads<'a> {
         // Every direction of y has the same largest entry.
-        let scales: Vec<f64> = dependencies.iter().map(|z| max_abs(z)).collect();
+        let directions = dependencies.iter().map(|z| (&z[..], max_abs(z)));
+        let directions: Vec<(&[f64], f64)> = directions.collect();
         let half_space = |&(id, row, sign): &(ConstraintId, usize, f64)| {
             let pressing = -sign * pressing_force(mechanism, scratch, id);
-            let along = dependencies.iter().zip(&scales);
+            let along = directions.iter();
             HalfSpace {
                 row: along.map(|(z, scale)| pressing * z[row] / scale).collect(),
                 value: pressing * multipliers[row],
@@ -70,19 +86,60 @@ impl CarriedContacts {
         let halves: Vec<HalfSpace> = self.joints.iter().map(half_space).collect();
         let pressed = halves.iter().map(|half| half.value.abs());
         let size = pressed.fold(loads, f64::max);
-        let polyhedron = Polyhedron::new(p, &halves, if size > 0.0 { size } else { 1.0 });
-        let (depth, is_open, weights) = match polyhedron.emptiness() {
-            Ok(Emptiness::Points { depth }) => (*depth, false, &[][..]),
-            Ok(Emptiness::Empty { weights, depth }) => (Some(*depth), true, &weights[..]),
-            Err(Unclear::Depth(depth)) => (Some(depth), true, &[][..]),
-            Err(_) => (None, false, &[][..]),
+        let size = if size > 0.0 { size } else { 1.0 };
+        CarriedLoads {
+            joints: &self.joints,
+            multipliers,
+            polyhedron: Polyhedron::new(directions.len(), &halves, size),
+            directions,
+        }
+    }
+}
+
+/// The loads that one-sided joints permit at a state, whether or not contacts slip.
+pub struct CarriedLoads<'a> {
+    joints: &'a [(ConstraintId, usize, f64)],
+    multipliers: &'a [f64],
+    /// The dependencies, each with its largest entry.
+    directions: Vec<(&'a [f64], f64)>,
+    polyhedron: Polyhedron,
+}
+
+impl CarriedLoads<'_> {
+    /// Returns whether the joints can stay closed.
+    #[must_use]
+    pub fn closure(&self) -> Closure {
+        let (is_open, weights) = match self.polyhedron.emptiness() {
+            Ok(Emptiness::Empty { weights, .. }) => (true, &weights[..]),
+            Err(Unclear::Depth(_)) => (true, &[][..]),
+            Ok(Emptiness::Points { .. }) | Err(_) => (false, &[][..]),
         };
         let opening = self.joints.iter().zip(weights);
         let opening = opening.filter(|(_, w)| **w > 0.0);
         Closure {
-            depth,
             is_open,
             opening: opening.map(|((id, ..), _)| *id).collect(),
         }
+    }
+
+    /// Returns the lowest and the highest value of a number with these coefficients of the
+    /// multipliers, infinite without a limit; `None` if the joints open, or if the answer is not
+    /// clear.
+    #[must_use]
+    pub fn range(&self, coefficients: &[f64]) -> Option<[f64; 2]> {
+        let along = self.directions.iter();
+        let row: Vec<f64> = along
+            .map(|(z, scale)| dot(coefficients, z) / scale)
+            .collect();
+        let value = dot(coefficients, self.multipliers);
+        let found = self.polyhedron.range(&row, value).ok()??;
+        let [lowest, highest] = found.ends.map(|end| match end {
+            Extremum::Finite { value, .. } => Some(value),
+            Extremum::Infinite { .. } => None,
+        });
+        Some([
+            lowest.unwrap_or(f64::NEG_INFINITY),
+            highest.unwrap_or(f64::INFINITY),
+        ])
     }
 }

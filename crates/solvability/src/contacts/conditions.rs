@@ -3,10 +3,11 @@
 use linalg::DisjointSets;
 use model::{ConstraintId, Grip, GripLoad, System};
 
+use super::carried::pressing_force;
 use super::error::PermittedError;
 use crate::choices::{FreeMultipliers, Solution, not_finite};
 use crate::groups::{Configuration, LinearForm, RequestError};
-use crate::limits::{GRIP_SIDES, PARALLEL_SLIP, SUPPORT_ROUNDING};
+use crate::limits::{CLEAR_PULL, GRIP_SIDES, PARALLEL_SLIP, SUPPORT_ROUNDING};
 use crate::polyhedra::polyhedron::{HalfSpace, Polyhedron};
 use crate::questions::Questions;
 use crate::verdict::Verdict;
@@ -153,6 +154,16 @@ impl Cluster {
                 .map(move |half| (ContactCondition { joint, kind }, half))
         });
         presses.chain(grips).unzip()
+    }
+
+    /// Returns the conditions that the solution with y = 0 violates, each once.
+    pub(super) fn violated(&self) -> Vec<ContactCondition> {
+        let (conditions, halves) = self.half_spaces(|grip| grip.friction, Polygon::Outer);
+        let all = conditions.into_iter().zip(halves);
+        let violated = all.filter(|(_, half)| half.value < -CLEAR_PULL * self.size);
+        let mut conditions: Vec<ContactCondition> = violated.map(|(c, _)| c).collect();
+        conditions.dedup();
+        conditions
     }
 
     /// Returns the forces with which one-sided joints press at a point y.
@@ -441,11 +452,10 @@ impl Configuration<'_> {
         let Some(side) = group.limits.open_side else {
             return Ok(None);
         };
-        let mut form = self.reactions().zero();
-        if let Some(force) = forces(self, id).first() {
-            let size = model::space::norm(force);
-            form.add(&[(group.rows.row(0), -side.sign() * size)])?;
-        }
+        let reactions = self.reactions();
+        let size = pressing_force(&reactions.mechanism, &reactions.s, id);
+        let mut form = reactions.zero();
+        form.add(&[(group.rows.row(0), -side.sign() * size)])?;
         Ok(Some(form))
     }
 }

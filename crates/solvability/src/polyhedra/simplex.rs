@@ -2,9 +2,11 @@
 //! `A·x = b`, `x ≥ 0`.
 //!
 //! Each basis is factored anew from the data, and its solutions are refined with residuals in
-//! double-double arithmetic, so rounding errors do not grow with the number of steps. Columns enter
-//! and leave by the rule of the smallest index (R. G. Bland, New finite pivoting rules for the
-//! simplex method, Math. Oper. Res. 2 (1977) 103–107), so the search ends at degenerate vertices.
+//! double-double arithmetic, so rounding errors do not grow with the number of steps. The column
+//! enters along which the cost decreases most for its length. After a step that changes no
+//! variable, columns enter and leave by the rule of the smallest index (R. G. Bland, New finite
+//! pivoting rules for the simplex method, Math. Oper. Res. 2 (1977) 103–107) until a step changes
+//! one, so the search ends at degenerate vertices.
 //!
 //! The columns of A may differ in size: components are compared with the lengths of their columns.
 //! The rounding errors of b are relative to its size, and those of the costs to a size that the
@@ -124,17 +126,23 @@ impl<'p> Simplex<'p> {
     /// Changes the basis until no column decreases the cost. Returns no vertex if the cost
     /// decreases without limit.
     fn descend(&mut self, phase: Phase) -> Result<Option<Vertex>, Unclear> {
+        let mut is_degenerate = false;
         loop {
             let mut vertex = self.vertex(phase)?;
-            let entering = (0..self.lengths.len()).find(|&k| {
-                !self.basic.contains(&k) && self.decreases(k, &vertex.multipliers, phase)
-            });
-            let Some(entering) = entering else {
+            let slope = |k| self.slope(k, &vertex.multipliers, phase).map(|s| (k, s));
+            let nonbasic = (0..self.lengths.len()).filter(|k| !self.basic.contains(k));
+            let mut falling = nonbasic.filter_map(slope);
+            let entering = match is_degenerate {
+                true => falling.next(),
+                false => falling.min_by(|(_, a), (_, b)| a.total_cmp(b)),
+            };
+            let Some((entering, _)) = entering else {
                 return Ok(Some(vertex));
             };
             let Some(leaving) = self.leaving(entering, &mut vertex)? else {
                 return Ok(None);
             };
+            is_degenerate = vertex.levels[leaving] == 0.0;
             self.basic[leaving] = entering;
             self.steps += 1;
             if self.steps > PIVOTS {
@@ -198,8 +206,9 @@ impl<'p> Simplex<'p> {
         })
     }
 
-    /// Returns whether the cost decreases with this variable.
-    fn decreases(&self, variable: usize, multipliers: &[f64], phase: Phase) -> bool {
+    /// Returns the change of the cost with this variable, relative to the length of its column, if
+    /// the cost decreases.
+    fn slope(&self, variable: usize, multipliers: &[f64], phase: Phase) -> Option<f64> {
         let column = self.program.columns.row(variable);
         let reduced = self.cost(variable, phase) - kernels::dot(column, multipliers);
         let rounding = rounding_of_dot(column, multipliers);
@@ -207,7 +216,8 @@ impl<'p> Simplex<'p> {
             Phase::Feasible => self.lengths[variable],
             Phase::Cheapest => self.program.cost_size,
         };
-        reduced < -(SUPPORT_ROUNDING * zero + rounding)
+        let is_falling = reduced < -(SUPPORT_ROUNDING * zero + rounding);
+        is_falling.then(|| reduced / self.lengths[variable])
     }
 
     /// Returns the position of the basic variable that becomes zero first, if one decreases.

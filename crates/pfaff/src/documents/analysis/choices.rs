@@ -19,6 +19,10 @@ pub struct DistributionDocument {
     pub groups: Vec<ValuesDocument>,
     /// The multiplier of each row.
     pub multipliers: Vec<ValueDocument>,
+    /// Conditions of contacts that this choice violates: `JOINT pulls`, `JOINT slips`, or the
+    /// reason why this is not decided. The contacts do not permit these reactions.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub not_permitted: Vec<String>,
 }
 
 /// The reaction of a joint or drive.
@@ -74,6 +78,7 @@ impl DistributionDocument {
             multipliers: multipliers
                 .map(|value| ValueDocument::new(None, value, None))
                 .collect(),
+            not_permitted: Vec::new(),
         }
     }
 }

@@ -23,6 +23,9 @@ pub struct ReactionDocument {
     /// Type of the joint or drive in scene files.
     #[serde(rename = "type")]
     pub kind: &'static str,
+    /// What the joint cannot do: it is one-sided, or grips with a coefficient of friction.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub contact: Option<String>,
     /// Rows of C that belong to the joint or drive.
     pub rows: Vec<usize>,
     /// Verdict on force and torque together, with ‖B_X‖ as margin.
@@ -325,6 +328,7 @@ impl From<&ReactionVerdict> for ReactionDocument {
         Self {
             name: r.name.clone(),
             kind: r.kind,
+            contact: None,
             rows: r.rows.iter().map(|row| row.row + 1).collect(),
             wrench: (&r.wrench).into(),
             generic_verdict: None,

@@ -4,7 +4,7 @@ mod along;
 mod answer;
 
 use model::reaction::ConstraintGroup;
-use model::words::{listed, range};
+use model::words::{listed, marked, range};
 use model::{ConstraintId, System};
 use report::ByName;
 use solvability::{BoundsError, ElasticBounds, Elasticity, Group, PartAnalysis, ReactionBounds};
@@ -21,7 +21,7 @@ use crate::documents::analysis::components;
 use crate::documents::{AlongDocument, AnalysisDocument, ComponentDocument};
 use crate::error::StudyError;
 use crate::refusal::Refusal;
-use crate::words::{Block, Cell, grouped, load_unit, marked};
+use crate::words::{Block, Cell, grouped, load_unit};
 
 /// Bounds for any stiffness.
 pub(super) struct BoundsOfReactions;

@@ -14,6 +14,7 @@ use super::options::Analyze;
 use super::remedies;
 use crate::choice;
 use crate::configuration::ConfigurationAnalysis;
+use crate::contacts::violated;
 use crate::error::StudyError;
 use crate::question::Control;
 use crate::refusal::Refusal;
@@ -72,6 +73,7 @@ pub(super) fn of(
             .filter(|(_, values)| !values.is_empty())
             .map(|(group, values)| ValuesDocument::of_group(&group.name, &values))
             .collect();
+        made.not_permitted = violated(configuration, &distribution);
         document.answers.choices.push(made);
     }
     if !choices.is_empty() {

@@ -1,5 +1,7 @@
 //! Values of reactions for the requested choices.
 
+use model::words::listed;
+
 use crate::documents::{AnalysisDocument, DistributionDocument, ValueDocument, ValuesDocument};
 
 use crate::words::{Block, Cell, load_unit};
@@ -62,7 +64,12 @@ pub(super) fn of(d: &AnalysisDocument) -> Vec<Block> {
     };
     let mut out = vec![Block::Heading(heading.to_owned()), Block::Table(table)];
     let label = |(k, choice): (usize, &DistributionDocument)| {
-        Block::Legend(format!("choice {}", k + 1), choice.label.clone())
+        let mut text = choice.label.clone();
+        if !choice.not_permitted.is_empty() {
+            let found = listed(&choice.not_permitted);
+            text += &format!("; the contacts do not permit these reactions: {found}");
+        }
+        Block::Legend(format!("choice {}", k + 1), text)
     };
     out.extend(choices.iter().enumerate().map(label));
     out

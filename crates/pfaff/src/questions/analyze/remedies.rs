@@ -7,7 +7,7 @@ mod types;
 
 use std::iter;
 
-use model::words::estimate;
+use model::words::{estimate, marked};
 use model::{ConstraintId, System};
 use report::ByName;
 use scene::{RetypedJoint, retyped};
@@ -22,7 +22,7 @@ use crate::documents::AnalysisDocument;
 use crate::error::StudyError;
 use crate::start::Start;
 use crate::study::Study;
-use crate::words::{Block, grouped, marked};
+use crate::words::{Block, grouped};
 use coupled_search::CoupledSearch;
 use types::{OtherType, other_types};
 

@@ -1,7 +1,7 @@
 //! The document of an analysis as text and tables, with the most important facts for a designer
 //! first.
 
-use model::words::{digits, quantity, rough};
+use model::words::{digits, marked, quantity, rough};
 use std::collections::BTreeSet;
 
 use crate::documents::AnalysisDocument;
@@ -13,7 +13,7 @@ use super::additions::ADDITIONS;
 use super::document::Hints;
 use super::phrases::{LINES, coordinates, each, hanging, spoken};
 use super::{along, counts, data, deletions, numbers, rank, remedies};
-use crate::words::{Block, Cell, count, count_of_rows, grouped, load_unit, marked};
+use crate::words::{Block, Cell, count, count_of_rows, grouped, load_unit};
 
 /// Number of reasons that are listed.
 const REASONS: usize = 10;

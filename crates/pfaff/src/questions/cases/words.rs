@@ -1,9 +1,9 @@
 //! Text on load cases.
 
-use model::words::listed;
+use model::words::{listed, marked};
 
 use super::{CaseDocument, CasePeaks, CaseSet, CasesAnswer, PeakOfCase};
-use crate::words::{Block, Cell, count, marked};
+use crate::words::{Block, Cell, count};
 
 /// Largest number of cases with columns of their own.
 const COLUMNS: usize = 5;

@@ -151,6 +151,9 @@ pub struct DiffReaction {
     /// Type of the joint or drive.
     #[serde(rename = "type")]
     pub kind: &'static str,
+    /// What the joint cannot do: it is one-sided, or grips with a coefficient of friction.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub contact: Option<String>,
     /// Rows of the joint or drive, counted from 1.
     pub rows: Vec<usize>,
     /// Verdict on the reaction.
@@ -169,6 +172,7 @@ impl From<&ReactionDocument> for DiffReaction {
         Self {
             name: None,
             kind: r.kind,
+            contact: r.contact.clone(),
             rows: r.rows.clone(),
             verdict: r.wrench.verdict,
             fragile: r.data.fragile,

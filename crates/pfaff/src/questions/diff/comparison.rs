@@ -21,8 +21,8 @@ pub(super) struct Comparison<'a> {
     pub(super) removed: Vec<&'a ReactionDocument>,
     /// Joints and drives that only the second scene has.
     pub(super) added: Vec<&'a ReactionDocument>,
-    /// Joints and drives whose type, number of rows or verdicts differ, or with a component that is
-    /// ill-determined in only one scene; in the order of the first scene.
+    /// Joints and drives whose type, number of rows, contact or verdicts differ, or with a
+    /// component that is ill-determined in only one scene; in the order of the first scene.
     pub(super) verdicts: Vec<VerdictChange<'a>>,
     /// Dependencies of the first scene that the second does not have.
     pub(super) gone: Vec<&'a DependencyDocument>,
@@ -30,7 +30,7 @@ pub(super) struct Comparison<'a> {
     pub(super) new: Vec<&'a DependencyDocument>,
 }
 
-/// A joint or drive that both scenes have, with a different type or a different verdict, or
+/// A joint or drive that both scenes have, with a different type, contact or verdict, or
 /// ill-determined in only one of them.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct VerdictChange<'a> {
@@ -90,6 +90,7 @@ impl VerdictChange<'_> {
             let components: Vec<_> = components.collect();
             (
                 r.kind,
+                &r.contact,
                 r.rows.len(),
                 r.wrench.verdict,
                 r.data.fragile,

@@ -83,27 +83,35 @@ fn reactions(d: &DiffAnswer) -> Option<Block> {
     let absent = || "–".to_owned();
     let name = |r: &DiffReaction| r.name.clone().unwrap_or_default();
     let changed = d.changed.iter().map(|change| {
-        let both = change.a.kind != change.b.kind;
-        let [a, b] = [&change.a, &change.b].map(|r| words(r, both));
+        let shown = [
+            change.a.kind != change.b.kind,
+            change.a.contact != change.b.contact,
+        ];
+        let [a, b] = [&change.a, &change.b].map(|r| words(r, shown));
         [change.name.clone(), a, b]
     });
     let gone = d
         .removed
         .iter()
-        .map(|r| [name(r), words(r, true), absent()]);
-    let new = d.added.iter().map(|r| [name(r), absent(), words(r, true)]);
+        .map(|r| [name(r), words(r, [true; 2]), absent()]);
+    let new = d
+        .added
+        .iter()
+        .map(|r| [name(r), absent(), words(r, [true; 2])]);
     let lines: Vec<_> = changed.chain(gone).chain(new).collect();
     let columns = ["reaction", &d.a.file, &d.b.file];
     (!lines.is_empty()).then(|| Block::table(columns, lines))
 }
 
-/// Describes the verdict on a reaction, with its type if the types differ.
-fn words(r: &DiffReaction, with_type: bool) -> String {
-    if with_type {
-        format!("{}, {}", r.kind, r.said)
-    } else {
-        r.said.clone()
-    }
+/// Describes the verdict on a reaction, with its type and with its contact if they are shown.
+fn words(r: &DiffReaction, [with_type, with_contact]: [bool; 2]) -> String {
+    let contact = r.contact.as_deref().unwrap_or("two-sided");
+    // Most joints are two-sided, which is said only where it is a difference.
+    let with_contact = with_contact && (r.contact.is_some() || !with_type);
+    let kind = with_type.then_some(r.kind);
+    let contact = with_contact.then_some(contact);
+    let all = kind.into_iter().chain(contact).chain([r.said.as_str()]);
+    all.collect::<Vec<_>>().join(", ")
 }
 
 /// Lists bodies by the distance between their motions, the largest distance first.

@@ -1,6 +1,8 @@
 //! An equilibrium: its distance from the start, its residual forces, and its reactions.
 
-use crate::documents::{LoadsDocument, SensitivityDocument, VerdictDocument, loads_at};
+use crate::documents::{
+    LoadsDocument, PullDocument, SensitivityDocument, VerdictDocument, loads_at,
+};
 use dynamics::equilibrium::{Equilibrium, RestStability};
 use linalg::kernels::norm;
 use model::{Layout, Mechanism, SpaceKind, System};
@@ -10,6 +12,9 @@ use solvability::{ReactionValues, ReactionVerdict, Sensitivities, Value};
 
 use crate::study::Study;
 use crate::words::{SceneUnits, scene_units};
+
+/// Reactions, and the contacts that pull.
+pub(super) type Reactions = (ByName<ReactionAtRest>, Vec<PullDocument>);
 
 /// An equilibrium of a scene.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -50,6 +55,9 @@ pub struct EquilibriumAnswer {
     /// Reason why there are no values of reactions.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub no_reactions_because: Option<String>,
+    /// Contacts that pull, although they are not described as one-sided.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub pulls: Vec<PullDocument>,
     /// Loads of force elements on their first bodies (N, N·m), with lengths (m) and angles (rad).
     #[serde(skip_serializing_if = "ByName::is_empty")]
     pub loads: LoadsDocument,
@@ -117,11 +125,7 @@ impl ReactionAtRest {
 impl EquilibriumAnswer {
     /// Builds the answer of a study, with its reactions at the equilibrium while functions of time
     /// have constant values, or the reason why there are no reactions.
-    pub(super) fn new(
-        study: &Study,
-        x: &Equilibrium,
-        there: Result<ByName<ReactionAtRest>, String>,
-    ) -> Self {
+    pub(super) fn new(study: &Study, x: &Equilibrium, there: Result<Reactions, String>) -> Self {
         let (mechanism, start) = (&study.prepared.mechanism, &study.prepared.q);
         let bodies = (0..mechanism.bodies().len()).map(|body| {
             let name = mechanism.bodies()[body].name.clone();
@@ -129,9 +133,9 @@ impl EquilibriumAnswer {
         });
         let groups = &mechanism.layout().groups;
         let drives = groups.iter().filter(|group| group.is_drive());
-        let (reactions, no_reactions_because) = match there {
-            Ok(reactions) => (reactions, None),
-            Err(why) => (ByName(Vec::new()), Some(why)),
+        let ((reactions, pulls), no_reactions_because) = match there {
+            Ok(found) => (found, None),
+            Err(why) => (Reactions::default(), Some(why)),
         };
         Self {
             scene: study.scene.name().to_owned(),
@@ -150,6 +154,7 @@ impl EquilibriumAnswer {
             moving_on: x.moving_on.clone(),
             reactions,
             no_reactions_because,
+            pulls,
             loads: loads_at(mechanism, x.time, &x.q, &vec![0.0; mechanism.layout().n_v]),
             file: None,
             text_at_rest: String::new(),

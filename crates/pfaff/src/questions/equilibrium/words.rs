@@ -2,10 +2,11 @@
 
 use std::iter;
 
-use model::words::rough;
+use model::words::{marked, rough};
 
 use super::answer::EquilibriumAnswer;
-use crate::words::{Block, Cell, count, load_unit, marked};
+use crate::pulls::{PullTimes, PullWarning};
+use crate::words::{Block, Cell, count, load_unit};
 
 pub(super) fn of(d: &EquilibriumAnswer) -> Vec<Block> {
     let mut blocks = vec![Block::sentence(found(d)), Block::sentence(stability(d))];
@@ -37,6 +38,9 @@ pub(super) fn of(d: &EquilibriumAnswer) -> Vec<Block> {
     }
     if !d.loads.is_empty() {
         blocks.push(loads(d));
+    }
+    if let Some(warning) = PullWarning::new(&d.pulls, PullTimes::Instant) {
+        blocks.push(Block::after(PullWarning::lead(), warning.to_string()));
     }
     if let Some(file) = d.file {
         blocks.push(Block::sentence(format!(

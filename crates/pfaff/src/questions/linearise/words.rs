@@ -1,8 +1,8 @@
 //! Text on small motions.
 
 use super::answer::{LineariseAnswer, ModeOfMotion};
-use crate::words::{Block, Cell, count, marked};
-use model::words::short;
+use crate::words::{Block, Cell, count};
+use model::words::{marked, short};
 
 pub(super) fn of(d: &LineariseAnswer) -> Vec<Block> {
     let velocities = d.states.len() - d.positions;

@@ -5,7 +5,7 @@ use crate::documents::{
     choice_file,
 };
 use dynamics::INDEPENDENT_ROWS;
-use model::words::{listed, rough, rounded};
+use model::words::{listed, marked, rough, rounded};
 
 use super::SimulateAnswer;
 use crate::bounds_of_run::largest_loads;
@@ -140,6 +140,17 @@ fn open(d: &RunDocument) -> Vec<String> {
     out.push(format!(
         "not determined by the model: {names}. reactions.csv contains only determined values; {solutions}.",
     ));
+    let is_contact = |r: &RunReactionDocument| r.contact.is_some();
+    let contacts = open.iter();
+    let contacts = contacts.filter(|name| d.reactions.get(name).is_some_and(is_contact));
+    let contacts: Vec<&str> = contacts.copied().collect();
+    if !contacts.is_empty() {
+        out.push(format!(
+            "{}: one of many solutions may contain loads that these contacts do not permit; `pfaff analyze --at-time T` \
+             prints the ranges that they permit.",
+            marked(&contacts)
+        ));
+    }
     for (k, choice) in d.choice.iter().enumerate() {
         let Some(gap) = &choice.gap else { continue };
         let rows = count(gap.rows, "row", "rows");

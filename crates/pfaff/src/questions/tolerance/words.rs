@@ -31,6 +31,7 @@ pub(super) fn of(d: &ToleranceDocument) -> Vec<Block> {
         blocks.push(Block::table(columns, lines));
         blocks.extend(more(ranged.len()));
     }
+    blocks.extend(permitted(d));
     blocks.extend(bounds(d));
     let item = |text: String| Block::after("- ", text);
     let first = ranged.iter().take(IN_WORDS).map(|r| r.sentence.clone());
@@ -80,6 +81,39 @@ fn bounds(d: &ToleranceDocument) -> Vec<Block> {
     ];
     out.extend(more(known.len()));
     out.push(Block::after("valid ", assumption));
+    out.push(Block::Gap);
+    out
+}
+
+/// Lists the ranges that one-sided joints permit.
+fn permitted(d: &ToleranceDocument) -> Vec<Block> {
+    let numbers = d.reactions.iter().flat_map(|r| {
+        let values = r.values.iter();
+        values.filter_map(move |value| Some((r, value, value.permitted?)))
+    });
+    let known: Vec<_> = numbers.collect();
+    if known.is_empty() {
+        return Vec::new();
+    }
+    let lines = known.iter().take(LISTED).map(|(r, value, range)| {
+        let end = |value: Option<f64>, unit| match value {
+            Some(_) => Cell::quantity(value, unit),
+            None => "no limit".into(),
+        };
+        [
+            r.name.as_str().into(),
+            value.name.into(),
+            end(range.lowest, value.unit),
+            end(range.highest, value.unit),
+        ]
+    });
+    let lines: Vec<[Cell; 4]> = lines.collect();
+    let heading = "Loads that the contacts permit, in all samples in which they stay closed:";
+    let mut out = vec![
+        Block::Heading(heading.to_owned()),
+        Block::table(["reaction", "what", "lowest", "highest"], lines),
+    ];
+    out.extend(more(known.len()));
     out.push(Block::Gap);
     out
 }
