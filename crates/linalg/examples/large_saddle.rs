@@ -1,5 +1,5 @@
-//! One right-hand side of a long chain of parallelograms: factorisation and solution through the
-//! Schur complement, from 3e2 to 1e5 rows.
+//! Solves one right-hand side of a long chain of parallelograms by factorisation and solution
+//! through the Schur complement, from 3e2 to 1e5 rows.
 //!
 //! `cargo run --release -p pfaff-linalg --example large_saddle`
 #![allow(clippy::print_stdout)]
@@ -8,7 +8,7 @@ use std::time::Instant;
 
 use pfaff_linalg::{SchurSaddle, SchurStructure, SparseMatrix};
 
-/// Number of runs of each size; the smallest time counts.
+/// Number of runs of each size; the smallest time is printed.
 const RUNS: usize = 15;
 
 fn main() {
@@ -65,8 +65,8 @@ fn main() {
     }
 }
 
-/// Cells of two or three equal cranks and a coupler on which the next cell is built; one row of
-/// each third crank is omitted.
+/// Returns the rows of a chain of cells. A cell consists of two or three equal cranks and a
+/// coupler, which carries the next cell. One row of each third crank is omitted.
 fn chain(cells: usize) -> (SparseMatrix, usize) {
     let mut rows: Vec<Vec<(usize, f64)>> = Vec::new();
     let (mut bodies, mut base) = (0, None);

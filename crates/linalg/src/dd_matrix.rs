@@ -1,8 +1,8 @@
 //! `DdMatrix`: a dense, row-major matrix of double-double numbers, for residuals and certificates.
 //!
-//! A constraint matrix that is evaluated in double-double at a refined configuration has singular
-//! values of about 1e-30 if they are exactly zero. Factorisations are made in `f64` and corrected
-//! by residuals of this type.
+//! The singular values of a constraint matrix are computed in double-double at a refined
+//! configuration. Singular values that are exactly zero are then about 1e-30. Factorisations are
+//! made in `f64` and corrected by residuals of this type.
 
 use std::ops::{Index, IndexMut};
 

@@ -1,6 +1,6 @@
 //! Disjoint sets of indices, which can be merged in pairs.
 
-/// The indices below `n` in disjoint sets. Initially, each index is a separate set.
+/// Disjoint sets of the indices below `n`. Initially, each index is a separate set.
 ///
 /// ```
 /// use pfaff_linalg::DisjointSets;

@@ -1,15 +1,15 @@
 //! Double-double numbers: an unevaluated sum `hi + lo` of two `f64`, about 32 digits.
 //!
-//! The format is used for residuals and certificates. The computed value of a singular value that
-//! is exactly zero decreases from 1e-16 to 1e-32 if it is recomputed in this format. A small
-//! nonzero singular value does not change. This is not a general numeric type: it has no
-//! transcendental functions, and no formatting of all digits.
+//! The format is used for residuals and certificates. A singular value that is exactly zero is
+//! computed as about 1e-16 in `f64` and as about 1e-32 in this format. A small nonzero singular
+//! value does not change. The type `Dd` is not a general numeric type: it has no transcendental
+//! functions, and no formatting of all digits.
 //!
-//! Products are split after Dekker instead of using `f64::mul_add`. Both are exact, so both give
-//! the same bits on every platform. However, on x86-64 without the FMA target feature `mul_add` is
-//! a call into a software routine, some twenty times slower. The disadvantage is a smaller range:
-//! the low part is correct only if the operands of a product are below 2⁹⁹⁶ in absolute value and
-//! the product is above 2⁻⁹⁶⁷.
+//! Products are computed by Dekker's splitting instead of `f64::mul_add`. Both methods are exact,
+//! so both give the same bits on every platform. However, on x86-64 without the FMA target feature
+//! `mul_add` is a call into a software routine, some twenty times slower. The disadvantage is a
+//! smaller range: the low part is correct only if the operands of a product are below 2⁹⁹⁶ in
+//! absolute value and the product is above 2⁻⁹⁶⁷.
 //!
 //! Sources: T. J. Dekker, A floating-point technique for extending the available precision, Numer.
 //! Math. 18 (1971) 224–242; M. Joldes, J.-M. Muller, V. Popescu, Tight and rigorous error bounds
@@ -36,7 +36,8 @@ pub struct Dd {
     lo: f64,
 }
 
-/// Computes `a + b = s + e` exactly, with s the rounded sum, for any order of sizes (Knuth).
+/// Computes `a + b = s + e` exactly, where s is the rounded sum. The operands may have any order of
+/// size (Knuth).
 pub fn two_sum(a: f64, b: f64) -> (f64, f64) {
     let s = a + b;
     let b_part = s - a;
@@ -44,8 +45,8 @@ pub fn two_sum(a: f64, b: f64) -> (f64, f64) {
     (s, (a - a_part) + (b - b_part))
 }
 
-/// Computes `a·b = p + e` exactly, with p the rounded product, within the range stated in the
-/// module docs.
+/// Computes `a·b = p + e` exactly, where p is the rounded product. The module docs state the range
+/// of the operands.
 pub fn two_product(a: f64, b: f64) -> (f64, f64) {
     let p = a * b;
     let (a_hi, a_lo) = split(a);
@@ -86,12 +87,12 @@ impl Dd {
         Self::from_pair(two_product(a, b))
     }
 
-    /// Returns the leading part: the value rounded to `f64`.
+    /// Returns the leading part, which is the value rounded to `f64`.
     pub fn hi(self) -> f64 {
         self.hi
     }
 
-    /// Returns the trailing part, at most half a unit in the last place of `hi`.
+    /// Returns the trailing part, which is at most half a unit in the last place of `hi`.
     pub fn lo(self) -> f64 {
         self.lo
     }
@@ -107,7 +108,7 @@ impl Dd {
         if self.hi < 0.0 { -self } else { self }
     }
 
-    /// Returns √x; NaN for negative numbers.
+    /// Returns √x, or NaN for negative numbers.
     #[must_use]
     pub fn sqrt(self) -> Self {
         if self.hi <= 0.0 || !self.hi.is_finite() {
@@ -119,7 +120,7 @@ impl Dd {
         Self::from_pair(fast_two_sum(root, left.hi / (2.0 * root)))
     }
 
-    /// Returns `x·2^e`, exact unless a part leaves the range of normal numbers.
+    /// Returns `x·2^e`. The result is exact unless a part leaves the range of normal numbers.
     #[must_use]
     pub fn scaled(self, e: i32) -> Self {
         Self::from_pair((scale(self.hi, e), scale(self.lo, e)))
@@ -192,7 +193,8 @@ impl Mul<f64> for Dd {
 impl Div for Dd {
     type Output = Self;
 
-    /// Divides by long division with three quotient digits of 53 bits, the last one for rounding.
+    /// Divides by long division with three quotient digits of 53 bits. The last digit is used for
+    /// rounding.
     fn div(self, y: Self) -> Self {
         let q_1 = self.hi / y.hi;
         if !q_1.is_finite() {

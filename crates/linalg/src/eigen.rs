@@ -26,8 +26,8 @@ pub struct Eigenpair {
     pub vector: Vec<[f64; 2]>,
 }
 
-/// Returns all eigenvalues of a square matrix with finite entries, each repeated by its
-/// multiplicity. The eigenvalues are sorted by real parts, the largest first, then by imaginary
+/// Returns all eigenvalues of a square matrix with finite entries. Each eigenvalue is repeated by
+/// its multiplicity. The eigenvalues are sorted by real parts, the largest first, then by imaginary
 /// parts. Returns `None` if the iteration does not converge, or if an entry is not finite.
 ///
 /// ```

@@ -1,10 +1,10 @@
 //! Row and column equilibration by powers of two.
 //!
-//! Rank decisions compare singular values, which depend on units, for example of lengths and
-//! angles, or of lengths of 1e-8 m and 1e8 m. Equilibration replaces C by `D_r·C·D_c` with all row
-//! and column maxima near one. The factors are powers of two, so scaling is exact and the rank does
-//! not change. It is not intended for solving linear systems: the condition number is not
-//! considered.
+//! Rank decisions compare singular values, which depend on the units of the entries, for example of
+//! lengths and angles, or of lengths of 1e-8 m and 1e8 m. Equilibration replaces C by `D_r·C·D_c`
+//! with all row and column maxima near one. The factors are powers of two, so scaling is exact and
+//! the rank does not change. The scaling is not intended for solving linear systems: the condition
+//! number is not considered.
 //!
 //! Source of the iteration: D. Ruiz, A scaling algorithm to equilibrate both rows and columns norms
 //! in matrices, RAL-TR-2001-034 (2001), with the maximum norm.
@@ -41,8 +41,8 @@ pub fn equilibrate(c: &Matrix) -> Scaling {
     ruiz((m, n), dense_exponents(c))
 }
 
-/// Works like [`equilibrate`], but with one factor for each block of rows and each block of
-/// columns, because the choice of axes of a body or of a joint must not affect the scaling of its
+/// Works like [`equilibrate`], but with one factor for each block of rows and for each block of
+/// columns. The choice of axes of a body or of a joint must not affect the scaling of its
 /// components. `row_blocks` and `col_blocks` contain the index of the block of each row and column.
 ///
 /// ```
@@ -91,7 +91,7 @@ fn dense_exponents(c: &Matrix) -> impl Iterator<Item = (usize, usize, i32)> + '_
 
 fn ruiz((m, n): (usize, usize), entries: impl Iterator<Item = (usize, usize, i32)>) -> Scaling {
     let mut scaling = Scaling::identity(m, n);
-    // Most entries are zero, so the others are collected once.
+    // Most entries are zero, so the nonzero entries are collected once.
     let entries: Vec<(usize, usize, i32)> = entries.collect();
     let mut row_top = vec![None; m];
     let mut col_top = vec![None; n];
@@ -113,8 +113,8 @@ fn ruiz((m, n): (usize, usize), entries: impl Iterator<Item = (usize, usize, i32
     scaling
 }
 
-/// Subtracts from each exponent half of the largest one in its row or column, rounded towards zero;
-/// returns `false` if nothing changed.
+/// Subtracts from each exponent half of the largest exponent in its row or column, rounded towards
+/// zero. Returns `false` if nothing changed.
 fn half_step(exponents: &mut [i32], top: &[Option<i32>]) -> bool {
     let mut moved = false;
     for (e, top) in exponents.iter_mut().zip(top) {
@@ -137,7 +137,7 @@ impl Scaling {
     /// Returns `D_r·C·D_c`.
     ///
     /// # Panics
-    /// Panics if the shape of `c` differs from that of the scaling.
+    /// Panics if the shape of `c` differs from the shape of the scaling.
     pub fn apply(&self, c: &Matrix) -> Matrix {
         self.map(c, 1)
     }
@@ -145,7 +145,7 @@ impl Scaling {
     /// Returns `D_r·C·D_c` of a sparse matrix.
     ///
     /// # Panics
-    /// Panics if the shape of `c` differs from that of the scaling.
+    /// Panics if the shape of `c` differs from the shape of the scaling.
     pub fn apply_sparse(&self, c: &SparseMatrix) -> SparseMatrix {
         self.check(c.nrows(), c.ncols());
         c.map(|i, j, c_ij| scale(c_ij, self.rows[i] + self.cols[j]))
@@ -154,7 +154,7 @@ impl Scaling {
     /// Returns `D_r⁻¹·C·D_c⁻¹`, the inverse of [`Scaling::apply`].
     ///
     /// # Panics
-    /// Panics if the shape of `c` differs from that of the scaling.
+    /// Panics if the shape of `c` differs from the shape of the scaling.
     pub fn undo(&self, c: &Matrix) -> Matrix {
         self.map(c, -1)
     }

@@ -8,9 +8,10 @@
 use crate::limits::{JACOBI_SWEEPS, ORTHOGONAL};
 use crate::{Matrix, kernels};
 
-/// `A = U·diag(σ)·Vᵀ` of an m×n matrix with k = min(m, n): left singular vectors in the columns of
-/// U (m×k), right singular vectors in the columns of V (n×k), σ largest first. If σ = 0, the column
-/// of U, or of V if A is wide, is zero.
+/// The decomposition `A = U·diag(σ)·Vᵀ` of an m×n matrix with k = min(m, n). The columns of U (m×k)
+/// are the left singular vectors, and the columns of V (n×k) are the right singular vectors. The
+/// singular values σ are sorted, largest first. If σ = 0, the column of U, or of V if A is wide, is
+/// zero.
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct SmallSvd {
@@ -74,8 +75,9 @@ pub struct SymmetricEigen {
     pub vectors: Matrix,
 }
 
-/// Returns eigenvalues and eigenvectors of a small symmetric matrix A of finite entries, from the
-/// singular values of `A + ‖A‖·I`. The errors of the eigenvalues are a few rounding errors of ‖A‖.
+/// Returns eigenvalues and eigenvectors of a small symmetric matrix A with finite entries. The
+/// eigenvalues and eigenvectors are computed from the singular values of `A + ‖A‖·I`. The errors of
+/// the eigenvalues are a few rounding errors of ‖A‖.
 ///
 /// ```
 /// use pfaff_linalg::{Matrix, symmetric_eigen};
@@ -101,7 +103,7 @@ pub fn symmetric_eigen(a: &Matrix) -> SymmetricEigen {
     }
 }
 
-/// Makes columns p and q orthogonal; returns whether a rotation was necessary.
+/// Makes columns p and q orthogonal. Returns whether a rotation was necessary.
 fn rotate(columns: &mut Matrix, turned: &mut Matrix, p: usize, q: usize) -> bool {
     let (a, b) = (kernels::norm(columns.row(p)), kernels::norm(columns.row(q)));
     let c = kernels::dot(columns.row(p), columns.row(q));

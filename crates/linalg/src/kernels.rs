@@ -39,7 +39,7 @@ pub fn axpy_both([s, t]: [f64; 2], [x, y]: [&[f64]; 2], z: &mut [f64]) {
     }
 }
 
-/// Returns the Euclidean norm, also for entries whose squares overflow or underflow.
+/// Returns the Euclidean norm, including vectors whose squared entries overflow or underflow.
 #[must_use]
 pub fn norm(x: &[f64]) -> f64 {
     let sum = dot(x, x);

@@ -1,7 +1,7 @@
 //! Singular values of large matrices with faer. No other file uses faer.
 //!
 //! faer is used only for this purpose. Up to about 150 rows our own pivoted QR is as fast. Saddle
-//! solves of that size are called for every evaluation and must not allocate memory, and the choice
+//! solves of this size are called for every evaluation and must not allocate memory, and the choice
 //! of rows should not depend on a feature. Singular values are only compared with limits well above
 //! the rounding error of both routines (tested below), so decisions are the same with and without
 //! faer. The functions are deliberately not generic: faer is compiled here only.
@@ -10,7 +10,8 @@ use faer::MatRef;
 
 use crate::Matrix;
 
-/// Computes the singular values, largest first; `None` if the iteration of faer did not converge.
+/// Computes the singular values, largest first. Returns `None` if the iteration of faer did not
+/// converge.
 pub(crate) fn singular_values(a: &Matrix) -> Option<Vec<f64>> {
     let view = MatRef::from_row_major_slice(a.as_slice(), a.nrows(), a.ncols());
     let mut sigma = view.singular_values().ok()?;
@@ -25,7 +26,6 @@ mod tests {
 
     /// Decisions must be the same with both routines. Their results agree far below the smallest
     /// tolerance τ = 10·eps·√(m·n) ≈ 2e-13 of this size.
-    /// = 10·eps·√(m·n) ≈ 2e-13 of this size.
     #[test]
     fn agrees_with_our_own_kernel() {
         const RANK: usize = 70;

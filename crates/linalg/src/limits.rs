@@ -43,9 +43,9 @@ pub(crate) const BALANCINGS: usize = 20;
 /// longer. Test: `matrices_of_every_kind_have_small_residuals`.
 pub(crate) const FRANCIS_STEPS: usize = 120;
 
-/// Number of steps without a new eigenvalue after which other than the optimal shifts are used.
-/// Unit: steps. Too small: convergence is disturbed. Too large: permutations take longer. Test:
-/// `matrices_of_every_kind_have_small_residuals`.
+/// Number of steps without a new eigenvalue after which exceptional shifts replace the usual
+/// shifts. Unit: steps. Too small: convergence is disturbed. Too large: permutations take longer.
+/// Test: `matrices_of_every_kind_have_small_residuals`.
 pub(crate) const EXCEPTIONAL_EVERY: usize = 10;
 
 /// Entries of an eigenvector above this limit are scaled down during the computation. Unit: 1. Too
@@ -53,18 +53,18 @@ pub(crate) const EXCEPTIONAL_EVERY: usize = 10;
 /// `matrices_of_every_kind_have_small_residuals`.
 pub(crate) const SUBSTITUTED: f64 = 1e100;
 
-/// A row and its column are balanced if this reduces their sum to less than this share. Unit:
+/// A row and its column are balanced if balancing reduces their sum to less than this share. Unit:
 /// share. Too small: units of states cost digits. Too large: sweeps have no effect. Test:
 /// `units_do_not_matter`.
 pub(crate) const BALANCED: f64 = 0.95;
 
 #[cfg(feature = "faer")]
-/// Smaller dimension of a matrix above which faer computes singular values. Up to about 200 our own
-/// kernel is faster, at 400 it takes 1.4 times as long, at 600 1.5 times (measured by
-/// `cargo run --release -p bench --features faer --example timings`). Our own kernel computes the
-/// same bits on every processor; faer does not, because it chooses instructions at run time. Unit:
-/// rows or columns. Too small: the last bits differ between processors. Too large: the computation
-/// takes longer. Test: none, work only.
+/// Smaller dimension of a matrix above which faer computes singular values. Our own kernel is
+/// faster up to about 200. Our own kernel takes 1.4 times as long at 400 and 1.5 times as long at
+/// 600 (measured by `cargo run --release -p bench --features faer --example timings`). Our own
+/// kernel computes the same bits on every processor; faer does not, because it chooses instructions
+/// at run time. Unit: rows or columns. Too small: the last bits differ between processors. Too
+/// large: the computation takes longer. Test: none, work only.
 pub(crate) const FAER_FROM: usize = 256;
 
 /// An updated norm is recomputed if cancellation has removed half of its digits: √eps. Unit: share
@@ -86,10 +86,10 @@ pub(crate) const SQUARE_MIN: f64 = 1e-140;
 pub const GRADED_MASSES: f64 = 1e6;
 
 /// If some masses are zero, the other masses count as graded above this spread. In NᵀMN, a massless
-/// coordinate has no mass that would limit the effect of cancellation. Below this spread, pivots by
-/// mass would only be smaller. Unit: ratio of the heaviest mass to the lightest mass that is not
-/// zero. Too small: pivots are smaller. Too large: digits are lost. Test:
-/// `masses_are_graded_from_their_spread_on`.
+/// coordinate has no mass that would limit the effect of cancellation. Below this spread, the
+/// choice of pivots by mass would only make the pivots smaller. Unit: ratio of the heaviest mass to
+/// the lightest mass that is not zero. Too small: pivots are smaller. Too large: digits are lost.
+/// Test: `masses_are_graded_from_their_spread_on`.
 pub(crate) const GRADED_BESIDE_MASSLESS: f64 = 1e3;
 
 /// If elimination reduces a mass to less than this share, the result loses the corresponding number
@@ -102,41 +102,41 @@ pub(crate) const CANCELLED: f64 = 1e-3;
 /// singular configuration are lost. Test: `a_pivot_of_a_few_roundings_is_no_pivot`.
 pub(crate) const PIVOT_FLOOR: f64 = 16.0 * f64::EPSILON;
 
-/// For graded masses, the pivot is chosen from the entries above this share of the largest one. The
-/// multipliers of the elimination stay below the inverse of this share. Unit: share of the largest
-/// entry. Too small: the elimination amplifies errors. Too large: heavy coordinates become pivots.
-/// Test: `graded_masses_choose_among_the_large_entries`.
+/// For graded masses, the pivot is chosen from the entries that are above this share of the largest
+/// entry. The multipliers of the elimination stay below the inverse of this share. Unit: share of
+/// the largest entry. Too small: the elimination amplifies errors. Too large: heavy coordinates
+/// become pivots. Test: `graded_masses_choose_among_the_large_entries`.
 pub(crate) const CANDIDATE: f64 = 0.1;
 
 /// After the elimination of a row, the work for the other rows in one of its coordinates is
-/// computed again if at most this many rows remain there. If more rows remain, the work for each of
-/// them hardly changes. Unit: rows. Too small: the row with the least work is not found. Too large:
-/// the ordering takes longer. Test: none, work only.
+/// computed again if at most this many rows remain in this coordinate. If more rows remain, the
+/// work for each of these rows hardly changes. Unit: rows. Too small: the row with the least work
+/// is not found. Too large: the ordering takes longer. Test: none, work only.
 pub(crate) const REVISED: usize = 4;
 
-/// The order of elimination is planned for entries above this share of the largest one of a row, so
-/// that most of them are still large enough after the mechanism has moved. Unit: share of the
-/// largest entry. Too small: the plan soon becomes invalid. Too large: the factors have more
+/// The order of elimination is planned for entries above this share of the largest entry of a row,
+/// so that most of these entries are still large enough after the mechanism has moved. Unit: share
+/// of the largest entry. Too small: the plan soon becomes invalid. Too large: the factors have more
 /// entries. Test: none, work only.
 pub(crate) const PIVOT_PLANNED: f64 = 0.5;
 
-/// The pivot of a row is an entry above this share of the largest one, in the coordinate in which
-/// the fewest later rows have entries. The multipliers of the elimination stay below the inverse of
-/// this share. Unit: share of the largest entry. Too small: the elimination amplifies errors. Too
-/// large: the factors have more entries. Test:
+/// The pivot of a row is an entry above this share of the largest entry of the row. The pivot is in
+/// the coordinate in which the fewest later rows have entries. The multipliers of the elimination
+/// stay below the inverse of this share. Unit: share of the largest entry. Too small: the
+/// elimination amplifies errors. Too large: the factors have more entries. Test:
 /// `a_row_is_solved_for_what_few_later_rows_have_entries_in`.
 pub(crate) const PIVOT_CHOSEN: f64 = 0.1;
 
 /// A row keeps the pivot coordinate of the previous factorisation as long as its entry is above
-/// this share of the largest one. The multipliers of the elimination stay below the inverse of this
-/// share. Unit: share of the largest entry. Too small: the elimination amplifies errors. Too large:
-/// coordinates and the positions of all entries are searched repeatedly. Test:
+/// this share of the largest entry. The multipliers of the elimination stay below the inverse of
+/// this share. Unit: share of the largest entry. Too small: the elimination amplifies errors. Too
+/// large: coordinates and the positions of all entries are searched repeatedly. Test:
 /// `a_row_is_solved_for_the_same_entry_while_that_is_large`.
 pub(crate) const PIVOT_REPEATED: f64 = 0.05;
 
-/// The corresponding share if a smaller entry has no advantage: for dense rows, for given
-/// coordinates, and, in terms of c/√m, for graded masses. Unit: share of the best entry. Too small:
-/// digits are lost. Too large: coordinates and the positions of all entries are searched
+/// The share that replaces [`PIVOT_REPEATED`] if a smaller entry has no advantage: for dense rows,
+/// for given coordinates, and, in terms of c/√m, for graded masses. Unit: share of the best entry.
+/// Too small: digits are lost. Too large: coordinates and the positions of all entries are searched
 /// repeatedly. Test: `a_row_is_solved_for_the_same_entry_while_that_is_nearly_the_largest`.
 pub(crate) const LARGEST_REPEATED: f64 = 0.8;
 
@@ -155,23 +155,23 @@ pub(crate) const VECTORS: usize = 20;
 /// rejection takes longer. Test: `rounds_that_do_not_converge_are_named`.
 pub(crate) const REFINEMENT_ROUNDS: usize = 8;
 
-/// Expected relative change of the next round of refinement below which the iteration ends. Below
-/// the rounding of an `f64`, a further round has no effect. Unit: share of each unknown. Too small:
-/// additional rounds have no effect. Too large: the last bit is wrong. Test:
+/// The iteration ends if the expected relative change of the next round of refinement is below this
+/// limit. Below the rounding of an `f64`, a further round has no effect. Unit: share of each
+/// unknown. Too small: additional rounds have no effect. Too large: the last bit is wrong. Test:
 /// `whole_numbers_come_back_exactly`.
 pub(crate) const SETTLED: f64 = 0.0625 * f64::EPSILON;
 
 /// Two successive changes below this share of the largest unknown of their kind are rounding of
 /// double-double numbers: 2⁻⁹⁶. Unit: share of the largest unknown. Too small: unknowns that are
-/// zero delay the others. Too large: small unknowns are not refined. Test: none.
+/// zero delay the other unknowns. Too large: small unknowns are not refined. Test: none.
 pub(crate) const REFINEMENT_NOISE: f64 = 1.262_177_448_353_619e-29;
 
 // Equations with independent rows, solved through the Schur complement of the masses.
 
 /// If the independent share of a row in the metric of the inverse masses is below this limit, the
-/// row is rounding noise, because the Schur complement contains the square of this share. Unit:
-/// share of the row. Too small: the elimination divides by noise. Too large: rows near a singular
-/// configuration are lost. Test: `a_row_of_which_little_is_left_is_lost`.
+/// row is rounding noise. The reason is that the Schur complement contains the square of this
+/// share. Unit: share of the row. Too small: the elimination divides by noise. Too large: rows near
+/// a singular configuration are lost. Test: `a_row_of_which_little_is_left_is_lost`.
 pub(crate) const SCHUR_NOISE: f64 = 1e-7;
 
 /// A row with a larger independent share counts as fully independent. Pivots are compared with this

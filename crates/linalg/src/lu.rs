@@ -1,6 +1,6 @@
 //! LU factorisation of small square matrices with partial pivoting, for the linear systems of
-//! implicit methods. It does not determine ranks, and detects only pivots that are exactly zero or
-//! not finite.
+//! implicit methods. The factorisation does not determine ranks, and detects only pivots that are
+//! exactly zero or not finite.
 
 use crate::kernels::{axpy, dot};
 
@@ -20,7 +20,7 @@ use crate::kernels::{axpy, dot};
 #[derive(Debug, Clone)]
 pub struct Lu {
     n: usize,
-    /// L below its unit diagonal, U on and above the diagonal; row-major.
+    /// The factor L below its unit diagonal, and the factor U on and above the diagonal; row-major.
     factors: Vec<f64>,
     /// Row i of `P·A` is row `permutation[i]` of A.
     permutation: Vec<usize>,
@@ -65,7 +65,8 @@ pub struct SingularPivot {
 }
 
 impl Lu {
-    /// Allocates storage for n×n matrices; the factors are those of the identity.
+    /// Allocates storage for n×n matrices. The initial factors are the factors of the identity
+    /// matrix.
     pub fn new(n: usize) -> Self {
         let mut lu = Self {
             n,
@@ -80,8 +81,8 @@ impl Lu {
         lu
     }
 
-    /// Changes the order to n. It must be at most the order of [`Lu::new`] to avoid an allocation.
-    /// The caller must call `factor` before any other method.
+    /// Changes the order to n. An n above the order of [`Lu::new`] causes an allocation. The caller
+    /// must call `factor` before any other method.
     pub(crate) fn resize(&mut self, n: usize) {
         self.n = n;
         self.factors.resize(n * n, 0.0);
@@ -92,7 +93,7 @@ impl Lu {
     /// Factors the matrix with entries `entry(i, j)`.
     ///
     /// # Errors
-    /// [`SingularPivot`]: there are no factors, and the result of `solve` is meaningless.
+    /// [`SingularPivot`]: the matrix has no factors, and the result of `solve` is meaningless.
     pub fn factor(
         &mut self,
         mut entry: impl FnMut(usize, usize) -> f64,

@@ -1,6 +1,6 @@
 //! `Matrix`: a simple dense, row-major matrix of `f64`.
 //!
-//! A constraint matrix C is m×n with one contiguous row per constraint; the algorithms of this
+//! A constraint matrix C is m×n with one contiguous row for each constraint. The algorithms of this
 //! crate pivot, drop or keep *rows*, so rows are contiguous. The type has no operators, no views
 //! and no decompositions.
 
@@ -142,7 +142,7 @@ impl Matrix {
         }
     }
 
-    /// Returns two rows as mutable slices, `i < j`.
+    /// Returns two rows as mutable slices, where `i < j`.
     pub(crate) fn two_rows_mut(&mut self, i: usize, j: usize) -> (&mut [f64], &mut [f64]) {
         debug_assert!(i < j, "rows {i} and {j}");
         let n = self.ncols;

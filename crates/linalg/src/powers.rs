@@ -5,13 +5,13 @@ use crate::kernels;
 /// Largest power of two whose inverse is also normal.
 pub(crate) const STEP: i32 = 1022;
 
-/// Returns `2^e` for `−STEP ≤ e ≤ STEP`.
+/// Returns `2^e`, where `−STEP ≤ e ≤ STEP`.
 #[must_use]
 pub fn power(e: i32) -> f64 {
     f64::from_bits(((e + 1023) as u64) << 52)
 }
 
-/// Returns `x·2^e`, exact unless the result is outside the range of normal numbers.
+/// Returns `x·2^e`. The result is exact unless it is outside the range of normal numbers.
 #[must_use]
 pub fn scale(x: f64, e: i32) -> f64 {
     if (-STEP..=STEP).contains(&e) {
@@ -30,7 +30,7 @@ pub fn scale(x: f64, e: i32) -> f64 {
     x * power(e.clamp(-STEP, STEP))
 }
 
-/// Returns the exponent e with `2^e ≤ |x| < 2^(e+1)`; `None` for zero and non-finite values.
+/// Returns the exponent e with `2^e ≤ |x| < 2^(e+1)`, or `None` for zero and non-finite values.
 #[must_use]
 pub fn exponent(x: f64) -> Option<i32> {
     const BIAS: i32 = 1023;
@@ -45,8 +45,8 @@ pub fn exponent(x: f64) -> Option<i32> {
     }
 }
 
-/// Returns the power-of-two exponent that scales the largest entry of `x` into [1, 2); 0 if all
-/// entries are zero.
+/// Returns the exponent of the power of two that scales the largest entry of `x` into [1, 2), or 0
+/// if all entries are zero.
 #[must_use]
 pub fn unit_exponent(x: &[f64]) -> i32 {
     exponent(kernels::max_abs(x)).map_or(0, |e| -e)

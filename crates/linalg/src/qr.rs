@@ -1,5 +1,5 @@
-//! Householder QR with column pivoting by largest remaining column *norm*, for matrices stored by
-//! the columns that are pivoted.
+//! Householder QR with column pivoting by the largest remaining column *norm*. The columns that are
+//! pivoted are stored contiguously.
 //!
 //! The rows of a row-major C are the columns of Cᵀ. The factorisation `Cᵀ·P = Q·R` therefore pivots
 //! the constraints themselves and accesses only contiguous memory. The other form, `C·P = Q·R`, is
@@ -50,8 +50,9 @@ impl PivotedQr {
         factor::factor(c)
     }
 
-    /// Factors `[A, δ·I]ᵀ·P = Q·R` for an m×(n+m) matrix that contains A and zeros next to it. Only
-    /// the first n rows of Q belong to columns of A in their order; the others are permuted.
+    /// Factors `[A, δ·I]ᵀ·P = Q·R`. The argument is an m×(n+m) matrix that contains A and zeros
+    /// next to it. Only the first n rows of Q belong to columns of A in their order; the other rows
+    /// of Q are permuted.
     pub(crate) fn of_damped_rows(beside_zeros: Matrix, damping: f64) -> Self {
         factor::factor_damped(beside_zeros, damping)
     }
@@ -67,7 +68,7 @@ impl PivotedQr {
         &self.permutation
     }
 
-    /// Returns the length of the factored columns, the order of Q.
+    /// Returns the length of the factored columns, which is the order of Q.
     pub fn dimension(&self) -> usize {
         self.factors.ncols()
     }

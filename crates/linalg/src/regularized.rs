@@ -62,7 +62,7 @@ pub enum StepError {
 /// memory.
 ///
 /// S is the power-of-two row scaling that brings the largest entry of each row of `J·√W` into [1,
-/// 2), so μ is compared with entries near one, whatever the units of the rows. The correction dq
+/// 2). Therefore μ is compared with entries near one, for any units of the rows. The correction dq
 /// minimises `μ·dqᵀ·W⁻¹·dq + ‖S·(J·dq + res)‖²`. Corrections are small, and contradictions are
 /// distributed among the rows.
 ///
@@ -112,7 +112,7 @@ impl DampedRows {
     /// Factors J with the weights and the damping of [`least_squares_step`].
     ///
     /// # Errors
-    /// Same errors as [`least_squares_step`].
+    /// Returns the same errors as [`least_squares_step`].
     pub fn new(j: &Matrix, weights: &[f64], mu: f64) -> Result<Self, StepError> {
         let (m, n) = (j.nrows(), j.ncols());
         check("weights", weights, n)?;

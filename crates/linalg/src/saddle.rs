@@ -13,8 +13,8 @@
 //!
 //! The solver runs for every evaluation of a right-hand side. The first factorisation plans the
 //! order of elimination. After that, `factor` and `solve` do not allocate memory once storage for
-//! the entries of the factors exists. The rows must be independent: choose the rows to keep with
-//! `decide` first (crate `rank`). This module decides no rank.
+//! the entries of the factors exists. The rows must be independent: choose the kept rows with
+//! `decide` first (crate `rank`). This module does not decide ranks.
 //!
 //! Masses that differ by many powers of ten are called graded. For graded masses, the pivot is the
 //! entry of the lightest coordinate among the entries that are not much smaller than the largest.
@@ -22,10 +22,10 @@
 //! computed from the equations of light bodies, in which no large inertia forces cancel.
 //! [`KeptRowSaddle::solve_refined`] removes the remaining rounding.
 //!
-//! The algebra, with `P·Cᵀ = L·U`, `L = [L₁; L₂]` unit lower trapezoidal and y = P·a:
-//! `C·a = γ ⇔ Lᵀ·y = U⁻ᵀ·γ`, `N = Pᵀ·[−L₁⁻ᵀ·L₂ᵀ; I]`, `(NᵀMN)·z = Nᵀ·(f − M·a_p)`,
-//! `L·U·λ = P·(f − M·a)`. Source: null space method, M. Benzi, G. H. Golub, J. Liesen, Numerical
-//! solution of saddle point problems, Acta Numerica 14 (2005) 1–137, section 6.
+//! The algebra uses `P·Cᵀ = L·U`, a unit lower trapezoidal `L = [L₁; L₂]`, and y = P·a: `C·a = γ ⇔
+//! Lᵀ·y = U⁻ᵀ·γ`, `N = Pᵀ·[−L₁⁻ᵀ·L₂ᵀ; I]`, `(NᵀMN)·z = Nᵀ·(f − M·a_p)`, `L·U·λ = P·(f − M·a)`.
+//! Source: null space method, M. Benzi, G. H. Golub, J. Liesen, Numerical solution of saddle point
+//! problems, Acta Numerica 14 (2005) 1–137, section 6.
 
 mod bound;
 mod error;
@@ -93,8 +93,9 @@ impl KeptRowSaddle {
         Self::with_columns(n, &vec![Vec::from_iter(0..n); r])
     }
 
-    /// Allocates storage for n coordinates and rows that have entries only in these columns. Each
-    /// column is listed once for a row. The values of a row are those in its columns.
+    /// Allocates storage for n coordinates and for rows that have entries only in these columns.
+    /// Each column is listed once for a row. The values of a row are listed in the order of its
+    /// columns.
     ///
     /// ```
     /// use pfaff_linalg::KeptRowSaddle;
@@ -133,7 +134,7 @@ impl KeptRowSaddle {
         })
     }
 
-    /// Allocates storage for the entries of these rows and computes their factors, see
+    /// Allocates storage for the entries of these rows and computes the factors of the rows, see
     /// [`Self::with_columns`] and [`Self::factor`].
     ///
     /// ```
@@ -147,7 +148,7 @@ impl KeptRowSaddle {
     /// ```
     ///
     /// # Errors
-    /// Same errors as these two functions.
+    /// Returns the same errors as these two functions.
     pub fn of_rows(c: &SparseMatrix, mass: &[f64]) -> Result<Self, SaddleError> {
         let columns: Vec<Vec<usize>> = (0..c.nrows()).map(|k| c.row(k).0.to_vec()).collect();
         let mut saddle = Self::with_columns(c.ncols(), &columns)?;
@@ -165,8 +166,8 @@ impl KeptRowSaddle {
         }
     }
 
-    /// Returns the memory (bytes) that a solver for these rows needs at most, for any choice of
-    /// pivot coordinates. The order of the rows is planned from their values.
+    /// Returns an upper bound of the memory (bytes) of a solver for these rows, for any choice of
+    /// pivot coordinates. The values of the rows determine their order.
     #[must_use]
     pub fn bytes(c: &SparseMatrix) -> usize {
         let k = c.ncols().saturating_sub(c.nrows());
@@ -204,24 +205,25 @@ impl KeptRowSaddle {
     }
 
     /// Returns whether the masses of the last factorisation are graded, so that light coordinates
-    /// become pivots. This is the case if [`mass_spread`] is at least [`GRADED_MASSES`], or at
-    /// least a thousandth of it if some masses are zero.
+    /// become pivots. Masses are graded if [`mass_spread`] is at least [`GRADED_MASSES`], or at
+    /// least a thousandth of [`GRADED_MASSES`] if some masses are zero.
     pub fn is_graded(&self) -> bool {
         self.is_graded
     }
 
     /// Returns whether a plain solution with the last factorisation may have fewer digits than
-    /// [`KeptRowSaddle::solve_refined`]. This is the case if [`mass_spread`] is at least
-    /// [`GRADED_MASSES`], or if less than 1e-3 of a reduced mass remained after elimination.
+    /// [`KeptRowSaddle::solve_refined`]. A plain solution may have fewer digits if [`mass_spread`]
+    /// is at least [`GRADED_MASSES`], or if less than 1e-3 of a reduced mass remained after
+    /// elimination.
     pub fn wants_refinement(&self) -> bool {
         self.mass_spread >= GRADED_MASSES || self.free.mass_ratio < CANCELLED
     }
 
     /// Returns the smallest share of a row that is independent of the previous rows in the last
-    /// factorisation. It is the largest remaining entry divided by the largest initial entry,
-    /// including skipped rows, and infinite for r = 0. The share indicates near-singular
-    /// configurations. Along a motion it changes smoothly, except when the pivot order changes, and
-    /// approaches zero as the rows become dependent.
+    /// factorisation. The share is the largest remaining entry of the row divided by its largest
+    /// initial entry. Skipped rows are included, and the result is infinite for r = 0. The share
+    /// indicates near-singular configurations. Along a motion the share changes smoothly, except
+    /// when the pivot order changes, and approaches zero as the rows become dependent.
     pub fn pivot_ratio(&self) -> f64 {
         self.lu.pivot_ratio
     }

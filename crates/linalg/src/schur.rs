@@ -7,12 +7,13 @@
 //! ```
 //!
 //! S is symmetric and positive definite, so a pivot search is not needed. The order of elimination,
-//! and with it the position of every entry of L, is chosen once from the bodies alone. Each
+//! and therefore the position of every entry of L, is chosen once from the bodies alone. Each
 //! evaluation then performs arithmetic on small dense fronts. The work grows with the square of the
-//! width of the graph of bodies: linearly for chains and ladders, and as n^1.5 for lattices.
+//! width of the graph of bodies. The work grows linearly for chains and ladders, and as n^1.5 for
+//! lattices.
 //!
-//! The method has two disadvantages: S has the square of the condition number of C, and masses must
-//! not vanish. Therefore the residuals of the rows are computed for every solution and corrected
+//! The method has two disadvantages. S has the square of the condition number of C, and masses must
+//! not be zero. Therefore the residuals of the rows are computed for every solution and corrected
 //! with the same factors. Rows that are dependent for an instant are skipped. For small systems,
 //! zero masses, and masses that differ by many powers of ten, use
 //! [`KeptRowSaddle`](crate::KeptRowSaddle).
@@ -34,7 +35,7 @@ pub use structure::SchurStructure;
 use tiles::{Lane, SIDE, Tile, triangle};
 
 /// Solver of the saddle equations for n coordinates and r independent, sparse constraint rows. All
-/// storage is allocated in [`SchurSaddle::new`]; factorisations and solutions do not allocate
+/// storage is allocated in [`SchurSaddle::new`]. Factorisations and solutions do not allocate
 /// memory unless they fail.
 ///
 /// ```
@@ -64,13 +65,14 @@ struct LdlFactors {
     l: Vec<Tile>,
     /// 1/D at each position in the order of elimination; 0 for a skipped row and for padding.
     inverse: Vec<Lane>,
-    /// S_kk at each position, and a group for padding.
+    /// S_kk at each position, and one group for padding.
     diagonal: Vec<Lane>,
-    /// Usual independent share of each row, in units of the smallest one; 1 if it is not known.
+    /// Usual independent share of each row, in units of the smallest usual share; 1 if the share is
+    /// not known.
     usual: Vec<Lane>,
     /// Reference values for the pivots: the product of `diagonal` and `usual`.
     compared: Vec<Lane>,
-    /// Masses m (NaN if they are not known) and their inverses, n values each.
+    /// Masses m (NaN if the masses are not known) and their inverses, n values each.
     mass: Vec<f64>,
     inverse_mass: Vec<f64>,
     pivot_ratio: f64,
@@ -82,24 +84,24 @@ struct LdlFactors {
 struct Assembly {
     /// Values of C, element by element. Places without an entry of C stay zero.
     values: Vec<Lane>,
-    /// The present front.
+    /// The front that is being assembled and eliminated.
     front: Vec<Tile>,
-    /// Updates that have not been added to their parents, the last one on top.
+    /// Updates that have not yet been added to the parents of their fronts, the last update on top.
     waiting: Vec<Tile>,
 }
 
 /// Buffers of a solution.
 #[derive(Clone, Debug)]
 struct SolutionScratch {
-    /// A right-hand side and its solution in the order of elimination, the sizes of the terms of
-    /// each row, and the sizes of all contributions to its multiplier. Each list has a group of
-    /// four for padding.
+    /// Lists in the order of elimination: a right-hand side and its solution, the sizes of the
+    /// terms of each row, and the sizes of all contributions to its multiplier. Each list ends with
+    /// a group of four for padding.
     x: Vec<Lane>,
     size: Vec<Lane>,
     added: Vec<Lane>,
-    /// Groups of four values of one front or element, and their sizes.
+    /// Groups of four values of one front or element, and the sizes of these values.
     local: Vec<[Lane; 2]>,
-    /// `M⁻¹·f`, and sizes of the terms of a, n values each.
+    /// `M⁻¹·f`, and the sizes of the terms of a, n values each.
     free: Vec<f64>,
     terms: Vec<f64>,
 }
@@ -148,8 +150,8 @@ impl SchurSaddle {
         &self.structure
     }
 
-    /// Returns the smallest fraction of a row, in the metric of the inverse masses, that is
-    /// independent of the rows eliminated before. It is small near singular configurations, and
+    /// Returns the smallest fraction of a row that is independent of the rows eliminated before it,
+    /// in the metric of the inverse masses. The fraction is small near singular configurations, and
     /// infinite without rows.
     #[must_use]
     pub fn pivot_ratio(&self) -> f64 {

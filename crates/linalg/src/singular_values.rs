@@ -109,9 +109,9 @@ fn upper(d: &[f64], f: &[f64]) -> Matrix {
     })
 }
 
-/// Computes singular values of a matrix with entries near one by one-sided Jacobi rotations on the
-/// rows of R from a pivoted QR. The method is slower, but cannot fail, and small values also have
-/// small errors.
+/// Computes singular values of a matrix with entries near one by one-sided Jacobi rotations. The
+/// rotations act on the rows of R from a pivoted QR. The method is slower, but cannot fail, and
+/// small singular values also have small errors.
 pub(crate) fn by_jacobi(a: Matrix) -> Vec<f64> {
     // The second QR makes a wide R square and closer to a diagonal, which reduces the number of
     // sweeps.

@@ -1,4 +1,5 @@
-//! The reference is integer arithmetic, in which all results for integers below 2¹⁰⁶ are exact.
+//! The reference results are computed in integer arithmetic, in which all results for integers
+//! below 2¹⁰⁶ are exact.
 
 use proptest::prelude::*;
 
@@ -7,7 +8,7 @@ use super::*;
 /// Integers up to 2⁵³ are exact in `f64`.
 const LARGEST: i64 = 1 << 53;
 
-/// The exact integer value of a double-double whose parts are integers.
+/// Returns the exact integer value of a double-double whose parts are integers.
 fn integer(x: Dd) -> i128 {
     assert!(x.hi.fract() == 0.0 && x.lo.fract() == 0.0, "{x:?}");
     x.hi as i128 + x.lo as i128

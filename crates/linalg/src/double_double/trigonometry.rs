@@ -1,9 +1,9 @@
 //! Sine and cosine in double-double, which are used at configurations for which a rank is
 //! certified.
 //!
-//! The argument is reduced by multiples of π/2 stored with 159 bits and halved three times; the
-//! remainder is below 0.1, so that its Taylor series converges fast. Doubling the angle uses
-//! `1 − cos`, which does not cancel.
+//! The argument is reduced by multiples of π/2 stored with 159 bits and halved three times. The
+//! remainder is below 0.1, so its Taylor series converges fast. Doubling the angle uses `1 − cos`,
+//! which does not cancel.
 
 use super::Dd;
 
@@ -17,7 +17,8 @@ const HALF_PI: [f64; 3] = [
 /// The number of times that the reduced argument is halved.
 const HALVINGS: i32 = 3;
 
-/// Terms of each series: 0.1³⁸ / 38! is far below the rounding of the format.
+/// Number of terms of each series: the next term, 0.1³⁸ / 38!, is far below the rounding of the
+/// format.
 const TERMS: u32 = 11;
 
 /// Above this argument the multiple of π/2 is not exact in the reduction, and the result has the

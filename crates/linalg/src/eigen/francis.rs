@@ -74,9 +74,9 @@ impl RealSchur {
         0
     }
 
-    /// Returns sum and product of the two shifts, which are the eigenvalues of the last 2 × 2
-    /// block. If all eigenvalues have equal absolute values, as for a permutation, a step may leave
-    /// the matrix unchanged. Therefore other shifts are used every few steps.
+    /// Returns the sum and the product of the two shifts, which are the eigenvalues of the last 2 ×
+    /// 2 block. If all eigenvalues have equal absolute values, as for a permutation, a step may
+    /// leave the matrix unchanged. Therefore other shifts are used every few steps.
     fn shifts(&self, begin: usize, end: usize, steps: usize) -> [f64; 2] {
         let t = &self.t;
         if !steps.is_multiple_of(EXCEPTIONAL_EVERY) {
@@ -97,7 +97,7 @@ impl RealSchur {
     }
 
     /// Performs one step with two shifts on the rows `begin..end`. The first reflection introduces
-    /// the shifts, and the others restore the Hessenberg form.
+    /// the shifts, and the other reflections restore the Hessenberg form.
     fn step(&mut self, begin: usize, end: usize, [sum, product]: [f64; 2]) {
         let n = self.t.nrows();
         let t = &self.t;
@@ -131,7 +131,7 @@ impl RealSchur {
         if c == 0.0 || square < 0.0 {
             return;
         }
-        // The eigenvalue farther from d, relative to d; (x, c) is its eigenvector.
+        // For the eigenvalue λ that is farther from d, x = λ − d, and (x, c) is an eigenvector.
         let x = half + square.sqrt().copysign(half);
         let length = x.hypot(c);
         let (cos, sin) = (x / length, c / length);
@@ -156,7 +156,7 @@ impl RealSchur {
         self.reflect_within(reflection, first, columns_from..n, rows);
     }
 
-    /// Works like [`Self::reflect`]for a T that is zero left of `columns` and below the first
+    /// Works like [`Self::reflect`] for a T that is zero left of `columns` and below the first
     /// `rows` rows.
     fn reflect_within(
         &mut self,

@@ -2,8 +2,8 @@
 
 use super::*;
 
-/// Jordan blocks together with other eigenvalues, in general axes and with entries changed by
-/// 1e-15.
+/// The matrix contains Jordan blocks and other eigenvalues, in general axes. Its entries are
+/// changed by 1e-15.
 #[test]
 fn zeros_are_counted_though_rounding_spreads_them() {
     let sizes = [3, 2, 1];
@@ -16,11 +16,11 @@ fn zeros_are_counted_though_rounding_spreads_them() {
         }
         first += size;
     }
-    // The eigenvalues 1e-3 and 4 ± 3i.
+    // The other eigenvalues are 1e-3 and 4 ± 3i.
     jordan[(6, 6)] = 1e-3;
     (jordan[(7, 7)], jordan[(8, 8)]) = (4.0, 4.0);
     (jordan[(7, 8)], jordan[(8, 7)]) = (3.0, -3.0);
-    // A reflection, and changes without a pattern.
+    // The matrix is transformed by a reflection and changed without a pattern.
     let w = Matrix::from_fn(n, 1, |i, _| 1.0 / (1.0 + i as f64).sqrt());
     let square = w.transpose().product(&w)[(0, 0)];
     let turn = Matrix::from_fn(n, n, |i, k| {

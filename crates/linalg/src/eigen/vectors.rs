@@ -78,8 +78,8 @@ impl RealSchur {
         (value, self.vector(value, x, k))
     }
 
-    /// Returns the eigenvector of A whose entries in the axes of T are, from row `known` onwards,
-    /// those of x.
+    /// Returns the eigenvector of A whose entries from row `known` onwards, in the axes of T, are
+    /// the entries of x.
     fn vector(&self, value: Complex, mut x: Vec<Complex>, known: usize) -> Vec<Complex> {
         let (t, n) = (&self.t, self.t.nrows());
         let least = (f64::EPSILON * t.max_abs()).max(f64::MIN_POSITIVE);

@@ -1,5 +1,6 @@
 //! Conversions from and to `nalgebra::DMatrix` at the public boundary, behind the feature
-//! `nalgebra`. They copy the values, because nalgebra stores columns and this crate stores rows.
+//! `nalgebra`. The conversions copy the values, because nalgebra stores columns and this crate
+//! stores rows.
 
 use nalgebra::DMatrix;
 

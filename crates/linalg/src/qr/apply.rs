@@ -32,8 +32,8 @@ impl PivotedQr {
         self.q_columns(0..self.dimension())
     }
 
-    /// Returns the columns `range` of Q: the first r span range(A), and the last n − r span its
-    /// complement.
+    /// Returns the columns `range` of Q. The first r columns of Q span range(A), and the last n − r
+    /// columns span its complement.
     ///
     /// # Panics
     /// Panics if the range ends beyond [`PivotedQr::dimension`].
@@ -75,7 +75,7 @@ impl PivotedQr {
         self.solve_r_transpose_from(0, x);
     }
 
-    /// Works like [`Self::solve_r_transpose`], for x whose entries before `first` are zero.
+    /// Works like [`Self::solve_r_transpose`], if the entries of x before `first` are zero.
     fn solve_r_transpose_from(&self, first: usize, x: &mut [f64]) {
         for k in first..x.len() {
             let column = self.factors.row(k);

@@ -1,11 +1,12 @@
-//! Independent rows of a matrix, factored once, and the other rows of the matrix in terms of them.
+//! Independent rows of a matrix, factored once. The other rows of the matrix are expressed by the
+//! independent rows.
 
 use super::PivotedQr;
 use super::factor::factor_leading;
 use crate::Matrix;
 
 /// A factorisation of r independent rows K of an m×n matrix C, and the relation of the other rows D
-/// to them: `C_D = T·C_K + S`, where the rows of S are orthogonal to those of `C_K`.
+/// to the rows K: `C_D = T·C_K + S`, where the rows of S are orthogonal to the rows of `C_K`.
 ///
 /// ```
 /// use pfaff_linalg::{Matrix, RowBasis};
@@ -111,8 +112,8 @@ impl RowBasis {
         self.factored
     }
 
-    /// Writes row j of T, r values in the order of [`RowBasis::kept`]: row `dropped[j]` in terms of
-    /// these rows.
+    /// Writes row j of T, which expresses row `dropped[j]` by the kept rows. The r values have the
+    /// order of [`RowBasis::kept`].
     ///
     /// # Panics
     /// Panics if j or the length of `t` is wrong.
@@ -126,7 +127,7 @@ impl RowBasis {
         }
     }
 
-    /// Returns row j of S, n − r values in the basis of the last columns of Q.
+    /// Returns row j of S as n − r values in the basis of the last columns of Q.
     ///
     /// # Panics
     /// Panics if j is not below the number of dropped rows.

@@ -4,12 +4,12 @@ use super::PivotedQr;
 use crate::limits::DOWNDATE_LIMIT;
 use crate::{Matrix, kernels};
 
-/// Remaining length of one column.
+/// Length of the part of a column that is not yet factored.
 #[derive(Debug, Clone, Copy)]
 struct Length {
-    /// Updated value.
+    /// The updated length.
     now: f64,
-    /// Value when it was last computed from the entries.
+    /// The length at its last computation from the entries of the column.
     exact: f64,
 }
 
@@ -39,10 +39,10 @@ pub(super) fn factor_leading(a: Matrix, steps: usize) -> PivotedQr {
     factor_with(a, steps, 0.0, |_, _| n)
 }
 
-/// Factors columns with δ·I below them; the columns have zeros at their ends for these entries. The
-/// entry δ of a column is in a separate row, which no other column affects before this column is
-/// the pivot. The entry is therefore written only when its column becomes the pivot. It is written
-/// into the first free row, where the reflections end.
+/// Factors columns with δ·I below them. The storage of each column ends with zeros for these
+/// entries. The entry δ of a column is in a separate row, which no other column affects before this
+/// column is the pivot. The entry is therefore written only when its column becomes the pivot. The
+/// entry is written into the first free row, where the reflections end.
 pub(super) fn factor_damped(a: Matrix, damping: f64) -> PivotedQr {
     let (m, n) = (a.nrows(), a.ncols() - a.nrows());
     factor_with(a, m, damping, |k, column| {
@@ -51,8 +51,9 @@ pub(super) fn factor_damped(a: Matrix, damping: f64) -> PivotedQr {
     })
 }
 
-/// Performs the factorisation. `begin` completes the column that becomes number k and returns its
-/// end. Before that, the column has an entry of size `beside` that is not stored in the matrix.
+/// Performs the factorisation. When a column becomes the pivot number k, `begin` writes its missing
+/// entry and returns the end of the column. Before that, the column has an entry of size `beside`
+/// that is not stored in the matrix.
 fn factor_with(
     mut a: Matrix,
     steps: usize,
@@ -83,8 +84,8 @@ fn factor_with(
     }
 }
 
-/// Returns the first index from `k` onwards with the largest length, so that equal lengths are not
-/// reordered.
+/// Returns the first index from `k` onwards with the largest length. Therefore equal lengths are
+/// not reordered.
 fn longest(lengths: &[Length], k: usize) -> usize {
     let mut best = k;
     for j in k + 1..lengths.len() {
@@ -95,8 +96,8 @@ fn longest(lengths: &[Length], k: usize) -> usize {
     best
 }
 
-/// Overwrites `x` by `[β, v_1, v_2, …]` with `H·x = β·e_0`, `H = I − τ·v·vᵀ`, `v_0 = 1`; returns τ.
-/// For a column that is already `[β, 0, …]`, τ = 0 and H = I.
+/// Overwrites `x` by `[β, v_1, v_2, …]` and returns τ, with `H·x = β·e_0`, `H = I − τ·v·vᵀ` and
+/// `v_0 = 1`. For a column that is already `[β, 0, …]`, τ = 0 and H = I.
 pub(crate) fn reflect(x: &mut [f64]) -> f64 {
     let alpha = x[0];
     if kernels::max_abs(&x[1..]) == 0.0 {
@@ -111,7 +112,7 @@ pub(crate) fn reflect(x: &mut [f64]) -> f64 {
     v_0 / -beta
 }
 
-/// Computes `y ← (I − τ·v·vᵀ)·y` with `v_0 = 1` (the stored entry 0 of `v` belongs to R).
+/// Computes `y ← (I − τ·v·vᵀ)·y` with `v_0 = 1`. The stored entry 0 of `v` belongs to R.
 pub(super) fn apply(tau: f64, v: &[f64], y: &mut [f64]) {
     if tau == 0.0 {
         return;
@@ -125,8 +126,8 @@ pub(super) fn apply(tau: f64, v: &[f64], y: &mut [f64]) {
     kernels::axpy(s, &v[1..], &mut y[1..]);
 }
 
-/// Computes the length of `column[1..]` from that of `column[0..]`, `ℓ² ← ℓ² − R_kj²`. The length
-/// is recomputed if the difference has lost half of its digits since the last exact value.
+/// Computes the length of `column[1..]` from the length of `column[0..]`: `ℓ² ← ℓ² − R_kj²`. The
+/// length is recomputed if the difference has lost half of its digits since the last exact value.
 fn downdate(length: &mut Length, column: &[f64], beside: f64) {
     if length.now == 0.0 || column[0] == 0.0 {
         return;

@@ -3,7 +3,8 @@ use proptest::prelude::*;
 
 use super::*;
 
-/// Backward error of Householder QR: a small multiple of eps times the size; 1e-13 covers 40×40.
+/// Backward error of Householder QR: a small multiple of eps times the size. The value 1e-13 is
+/// sufficient for 40×40 matrices.
 const BACKWARD: f64 = 1e-13;
 
 fn any_matrix() -> impl Strategy<Value = Matrix> {
@@ -13,9 +14,9 @@ fn any_matrix() -> impl Strategy<Value = Matrix> {
     })
 }
 
-/// Kahan's matrix. Its columns shrink by 1e-12 from one to the next, so that rounding does not
-/// change their order in the pivoting (in exact arithmetic, all remaining columns have equal
-/// lengths).
+/// Kahan's matrix. The length of each column is smaller than the length of the previous column by
+/// 1e-12, so that rounding does not change the order of the columns in the pivoting. In exact
+/// arithmetic, all remaining columns have equal lengths.
 fn kahan(n: usize, angle: f64) -> Matrix {
     let (s, c) = angle.sin_cos();
     Matrix::from_fn(n, n, |i, j| {
@@ -128,7 +129,8 @@ fn last_pivot_of_kahan_hides_the_smallest_singular_value() {
 
 #[test]
 fn graded_columns_downdate_safely() {
-    // Columns that agree in all but their last digits: plain downdating would give only noise.
+    // Columns that agree in all digits except their last digits. Plain downdating would give only
+    // noise.
     let c = Matrix::from_fn(6, 8, |i, j| {
         1.0 + if j == i + 1 {
             1e-9 * (i + 1) as f64

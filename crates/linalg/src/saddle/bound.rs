@@ -12,9 +12,8 @@ use crate::DisjointSets;
 /// and rows with these columns.
 pub(super) fn bound(n: usize, columns: &[&[usize]]) -> [usize; 2] {
     let mut sets = DisjointSets::new(n);
-    // For each set, stored at its representative: the number of coordinates that are not pivots,
-    // and the later rows.
-    // later rows.
+    // For each set, at the index of its representative: the number of coordinates that are not
+    // pivots, and the later rows.
     let mut size = vec![1_usize; n];
     let mut rows: Vec<BTreeSet<usize>> = vec![BTreeSet::new(); n];
     for (k, columns) in columns.iter().enumerate() {

@@ -60,7 +60,7 @@ pub enum SaddleError {
         /// The negative mass.
         value: f64,
     },
-    /// A coordinate has no mass, but the solver needs one for every coordinate.
+    /// A coordinate has no mass, but the solver needs a positive mass for every coordinate.
     #[error(
         "mass {index} is {value:.3e}: the solver of large mechanisms needs mass and inertia for every coordinate; give it some"
     )]
@@ -90,7 +90,7 @@ pub enum SaddleError {
          {scale:.3e}; the configuration is singular or the kept rows were chosen elsewhere"
     )]
     RankLost {
-        /// Index of the row.
+        /// Index of the row in C.
         row: usize,
         /// Largest remaining entry of the row.
         pivot: f64,
@@ -105,9 +105,9 @@ pub enum SaddleError {
     MasslessMotion {
         /// The remaining reduced mass.
         reduced: f64,
-        /// The size with which it is compared.
+        /// The reference size for the reduced mass.
         size: f64,
-        /// The motion, largest entry 1.
+        /// The motion, scaled so that its largest entry is 1.
         motion: Vec<f64>,
     },
     /// Refinement does not converge: the equations are singular to working precision.

@@ -15,9 +15,9 @@ impl KeptRowSaddle {
     /// | `mass` | n | diagonal of M, entries ≥ 0 |
     ///
     /// For rows without zeros, the function costs about n·r² + k·r²/2 + k²·r/2 multiplications. It
-    /// allocates memory in three cases: in the first factorisation, whose values determine the
-    /// order of elimination, if it fails, and if large factors have more entries than before. After
-    /// an error the solver has no factorisation.
+    /// allocates memory in three cases: in the first factorisation, which determines the order of
+    /// elimination; if it fails; and if large factors have more entries than before. After an error
+    /// the solver has no factorisation.
     ///
     /// # Errors
     /// - [`SaddleError::Length`], [`SaddleError::NonFinite`], [`SaddleError::NegativeMass`]: bad
@@ -48,9 +48,9 @@ impl KeptRowSaddle {
         self.finish(row, mass)
     }
 
-    /// Works like [`KeptRowSaddle::factor`], but skips rows whose pivot is at most `floor` of their
-    /// largest entry: if rows are dependent for an instant, the other rows determine the solution.
-    /// The multiplier of a skipped row is zero, and its equation is not satisfied.
+    /// Works like [`KeptRowSaddle::factor`], but skips a row if its pivot is at most `floor` times
+    /// its largest entry. If rows are dependent for an instant, the other rows determine the
+    /// solution. The multiplier of a skipped row is zero, and its equation is not satisfied.
     ///
     /// ```
     /// use pfaff_linalg::KeptRowSaddle;
@@ -64,7 +64,7 @@ impl KeptRowSaddle {
     /// ```
     ///
     /// # Errors
-    /// Same errors as [`KeptRowSaddle::factor`], without [`SaddleError::RankLost`].
+    /// Returns the same errors as [`KeptRowSaddle::factor`], without [`SaddleError::RankLost`].
     pub fn factor_above<'c>(
         &mut self,
         floor: f64,
@@ -75,10 +75,10 @@ impl KeptRowSaddle {
     }
 
     /// Works like [`KeptRowSaddle::factor_above`], but stops before the null space is computed if
-    /// the number of free motions exceeds a limit, above which another solver needs less work.
+    /// the number of free motions exceeds a limit. Above this limit another solver needs less work.
     ///
     /// # Errors
-    /// Same errors as [`KeptRowSaddle::factor_above`], and [`SaddleError::ManyFree`].
+    /// Returns the same errors as [`KeptRowSaddle::factor_above`], and [`SaddleError::ManyFree`].
     pub fn factor_up_to<'c>(
         &mut self,
         most_free: usize,

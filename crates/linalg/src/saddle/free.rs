@@ -1,10 +1,11 @@
-//! The free motions, which satisfy all rows. This file computes a basis N of them and the reduced
-//! mass `Nᵀ·M·N`, with a Cholesky factorisation without square roots.
+//! The free motions, which satisfy all rows. This file computes a basis N of the free motions, the
+//! reduced mass `Nᵀ·M·N`, and its Cholesky factorisation without square roots.
 //!
-//! Each null vector belongs to one free coordinate. Its entry is one in this coordinate and zero in
-//! the other free coordinates. Its other entries belong to coordinates that the rows couple to the
-//! free one. If a null vector has few other entries, for example if rows of a long mechanism are
-//! skipped for an instant, most entries of the reduced mass are zero. Therefore vectors with few
+//! Each null vector belongs to one free coordinate. The entry of the vector is one in this
+//! coordinate and zero in the other free coordinates. The other entries of the vector belong to
+//! coordinates that the rows couple to this free coordinate. If a null vector has few other
+//! entries, most entries of the reduced mass are zero. A null vector has few other entries, for
+//! example, if rows of a long mechanism are skipped for an instant. Therefore vectors with few
 //! entries come first, and each row of the factor begins with its first entry.
 
 use super::error::SaddleError;
@@ -36,16 +37,16 @@ pub(super) struct FreeMotions {
 /// The n×k matrix N by its rows, with only the entries that can be nonzero.
 #[derive(Debug, Clone)]
 pub(super) struct Basis {
-    /// Rows of the free coordinates, followed by those of the other coordinates, last row of C
-    /// first. If only one motion is free, as in most mechanisms, there is one entry for each
-    /// coordinate, in their order.
+    /// Rows of the free coordinates, followed by the rows of the other coordinates in the reverse
+    /// order of the rows of C. If only one motion is free, as in most mechanisms, the basis has one
+    /// entry for each coordinate, in the order of the coordinates.
     entries: Vec<Entry>,
     /// Start and end of the row of each coordinate.
     rows: Vec<[u32; 2]>,
     /// Buffer for a row, k values.
     row: Vec<f64>,
-    /// Buffer for the numbers of entries of the null vectors, and for their positions in the order
-    /// of these numbers.
+    /// Buffer for the number of entries of each null vector. A second buffer contains the positions
+    /// of the null vectors when they are sorted by this number.
     count: Vec<usize>,
     place: Vec<u32>,
 }
@@ -185,8 +186,8 @@ impl FreeMotions {
         }
     }
 
-    /// Computes basis and factors for these rows and masses. `entry(row, coordinate)` is an entry
-    /// of C relative to the largest one of its row.
+    /// Computes the basis and the factors for these rows and masses. `entry(row, coordinate)` is an
+    /// entry of C relative to the largest entry of its row.
     pub(super) fn factor(
         &mut self,
         lu: &TallLu,
@@ -240,8 +241,8 @@ impl FreeMotions {
         if k == 0 {
             return Ok(());
         }
-        // Relative rounding due to cancellation in NᵀMN, and to rounding of N, which is exact in
-        // the free coordinates and may change a zero into a mass.
+        // The relative rounding error has two causes: cancellation in NᵀMN, and rounding of N. N is
+        // exact in the free coordinates, and its rounding may change a zero into a mass.
         let cancelled = k as f64 * f64::EPSILON;
         let relative = (n as f64 * f64::EPSILON).powi(2);
         let heaviest = max_abs(&self.mass);
@@ -271,8 +272,8 @@ impl FreeMotions {
             };
             let is_lost = reduced <= floor(heaviest, 1.0) && {
                 let dependent = lu.pivots().iter().map(|&i| self.mass[i]);
-                // Rounding of a null vector is relative to the entries of its coordinate in the
-                // rows.
+                // The rounding error of a null vector is relative to the entries that its
+                // coordinate has in the rows.
                 let shares = lu.used().iter().map(|&row| entry(row, lu.free[i]));
                 reduced <= floor(dependent.fold(0.0, f64::max), shares.fold(0.0, f64::max))
             };

@@ -1,6 +1,6 @@
 //! Lists of indices and of values, stored one after the other.
 
-/// Indices; list k is at `start[k]..start[k + 1]`.
+/// Lists of indices; list k is at `start[k]..start[k + 1]`.
 #[derive(Debug, Clone)]
 pub(super) struct Lists {
     start: Vec<usize>,
@@ -74,7 +74,7 @@ impl Entry {
     }
 }
 
-/// Entries; list k is at `start[k]..start[k + 1]`.
+/// Lists of entries; list k is at `start[k]..start[k + 1]`.
 #[derive(Debug, Clone)]
 pub(super) struct Entries {
     start: Vec<usize>,
@@ -101,7 +101,7 @@ impl Entries {
         self.start.push(self.entries.len());
     }
 
-    /// Keeps only the first lists.
+    /// Keeps only the first `lists` lists.
     pub(super) fn truncate(&mut self, lists: usize) {
         self.start.truncate(lists + 1);
         self.entries.truncate(self.start[self.start.len() - 1]);

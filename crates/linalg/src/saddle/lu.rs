@@ -1,14 +1,15 @@
-//! LU of the tall Cᵀ, one row of C after the other: `P·Cᵀ = L·U`, with `L = [L₁; L₂]` unit lower
-//! trapezoidal. Only entries that can be nonzero are stored.
+//! LU factorisation of the tall Cᵀ, one row of C after the other: `P·Cᵀ = L·U`, with a unit lower
+//! trapezoidal `L = [L₁; L₂]`. Only entries that can be nonzero are stored.
 //!
-//! The pivot of a row is one of its large remaining entries, in a coordinate in which few later
-//! rows have entries: only these rows are eliminated with it. The positions of nonzero entries
-//! depend on these choices, so the first factorisation finds both ([`TallLu::search`]). Later
-//! factorisations repeat them ([`TallLu::repeat`]) up to the first row in which the chosen entry is
-//! below a share of the present largest entry, and search from this row onwards. Sources: J. R.
-//! Gilbert, T. Peierls, Sparse partial pivoting in time proportional to arithmetic operations, SIAM
-//! J. Sci. Stat. Comput. 9 (1988) 862–874; T. A. Davis, E. Palamadai Natarajan, Algorithm 907: KLU,
-//! ACM Trans. Math. Softw. 37 (2010) 36, for the repetition.
+//! The pivot of a row is one of its large remaining entries. The coordinate of the pivot is one in
+//! which few later rows have entries, because only these rows are eliminated with the pivot. The
+//! positions of nonzero entries depend on the pivot coordinates, so the first factorisation finds
+//! both ([`TallLu::search`]). Later factorisations repeat both ([`TallLu::repeat`]) up to the first
+//! row in which the chosen entry is below a share of the present largest entry. Later
+//! factorisations search again from this row onwards. Sources: J. R. Gilbert, T. Peierls, Sparse
+//! partial pivoting in time proportional to arithmetic operations, SIAM J. Sci. Stat. Comput. 9
+//! (1988) 862–874; T. A. Davis, E. Palamadai Natarajan, Algorithm 907: KLU, ACM Trans. Math. Softw.
+//! 37 (2010) 36, for the repetition.
 
 use super::error::{SaddleError, check_length};
 use super::lists::{Entries, Entry, Lists};
@@ -20,26 +21,26 @@ use crate::limits::RESERVED;
 #[derive(Debug, Clone)]
 pub(super) struct TallLu {
     pub(super) n: usize,
-    /// Columns outside which each row of C is zero.
+    /// The columns in which each row of C can have nonzero entries.
     pub(super) columns: Lists,
     plan: Plan,
-    /// Number of rows in use: all rows without the skipped ones.
+    /// Number of rows in use: all rows except the skipped rows.
     pub(super) r: usize,
     solved: PivotRows,
     factors: LuFactors,
     /// Coordinates that are not pivots.
     pub(super) free: Vec<usize>,
     is_changed: bool,
-    /// Smallest `largest remaining entry / largest entry` of a row, including skipped rows.
+    /// Smallest ratio `largest remaining entry / largest entry` of a row, including skipped rows.
     pub(super) pivot_ratio: f64,
     work: EliminationRow,
 }
 
-/// Rows in use and their pivot coordinates. While a factorisation repeats the previous one, these
-/// rows and coordinates are those of the previous one.
+/// Rows in use and their pivot coordinates. While a factorisation repeats the previous
+/// factorisation, these rows and coordinates are those of the previous factorisation.
 #[derive(Debug, Clone)]
 struct PivotRows {
-    /// For each row in use, its index in C. `pivot` contains its pivot coordinate.
+    /// Index in C of each row in use. `pivot` contains the pivot coordinate of the row.
     used: Vec<usize>,
     pivot: Vec<usize>,
     /// Whether each row of C is in use.
@@ -51,11 +52,11 @@ struct PivotRows {
 /// Entries of L and U.
 #[derive(Debug, Clone)]
 struct LuFactors {
-    /// Row j: `U_kj` of the rows k < j with which it is eliminated, ascending.
+    /// Row j contains `U_kj` for the rows k < j with which row j is eliminated, ascending.
     upper: Entries,
-    /// Row j: column j of L below its unit diagonal, by coordinates.
+    /// Row j contains column j of L below its unit diagonal, by coordinates.
     lower: Entries,
-    /// U_jj of each row in use, and 1/U_jj, because a product is cheaper than a quotient.
+    /// U_jj of each row in use, and 1/U_jj. A product with 1/U_jj is cheaper than a quotient.
     diagonal: Vec<f64>,
     inverse: Vec<f64>,
 }
@@ -65,8 +66,8 @@ struct LuFactors {
 struct EliminationRow {
     /// Entries of the row by coordinates; zero between rows.
     x: Vec<f64>,
-    /// Coordinates in which the row can have entries, in any order, and whether each coordinate is
-    /// in this list.
+    /// Coordinates in which the row can have entries, in any order. A second list states for each
+    /// coordinate whether it is in the first list.
     touched: Vec<usize>,
     is_touched: Vec<bool>,
     /// Set of rows with which the row must still be eliminated.
@@ -78,8 +79,8 @@ struct EliminationRow {
 /// Result of the elimination of a row.
 pub(super) enum Elimination {
     Used,
-    /// The row depends on the previous rows: its largest remaining entry, and its largest initial
-    /// entry.
+    /// The row depends on the previous rows. The values are its largest remaining entry and its
+    /// largest initial entry.
     Dependent {
         pivot: f64,
         scale: f64,
@@ -142,7 +143,7 @@ impl TallLu {
         [&self.factors.upper, &self.factors.lower].map(Entries::n_entries)
     }
 
-    /// From the next factorisation, only these coordinates can be pivots; all if `None`.
+    /// Permits only these coordinates as pivots from the next factorisation on; `None` permits all.
     pub(super) fn solve_for(&mut self, solvable: Option<Vec<bool>>) {
         self.plan.solve_for(solvable);
         self.keep(0);
@@ -153,8 +154,8 @@ impl TallLu {
         &self.plan.order
     }
 
-    /// Removes all rows. Chooses the order of elimination by these values, unless it has already
-    /// been chosen.
+    /// Removes all rows. The values of the rows determine the order of elimination, unless the
+    /// order has already been chosen.
     pub(super) fn begin<'c>(&mut self, row: impl Fn(usize) -> &'c [f64]) {
         self.pivot_ratio = f64::INFINITY;
         self.r = 0;
@@ -178,9 +179,9 @@ impl TallLu {
         &self.solved.pivot[..self.r]
     }
 
-    /// Computes the next column of U and of L from the values of a row of C in its columns:
-    /// scatter, eliminate with the previous rows, pivot. `graded` contains the masses if they
-    /// affect the choice of the pivot coordinate.
+    /// Computes the next column of U and of L from the values of a row of C in its columns. The
+    /// steps are: scatter, eliminate with the previous rows, pivot. `graded` contains the masses if
+    /// they affect the choice of the pivot coordinate.
     pub(super) fn eliminate(
         &mut self,
         (row, c_j): (usize, &[f64]),
@@ -367,7 +368,8 @@ impl TallLu {
         }
     }
 
-    /// Ends a factorisation; returns whether the pivot coordinates differ from those before.
+    /// Ends a factorisation. Returns whether its pivot coordinates differ from the pivot
+    /// coordinates of the previous factorisation.
     pub(super) fn finish(&mut self) -> bool {
         self.keep(self.r);
         let is_changed = std::mem::take(&mut self.is_changed);
@@ -385,15 +387,15 @@ impl TallLu {
         is_changed
     }
 
-    /// Returns, for each row in use (the last one first), its pivot coordinate and the column of L
-    /// below its diagonal.
+    /// Returns, for each row in use, its pivot coordinate and the column of L below its diagonal.
+    /// The last row comes first.
     #[inline(always)]
     pub(super) fn backward(&self) -> impl Iterator<Item = (usize, &[Entry])> {
         let pivots = self.solved.pivot[..self.r].iter().enumerate().rev();
         pivots.map(|(j, &at)| (at, self.factors.lower.of(j)))
     }
 
-    /// Computes the pivot entries of y such that `C·y = γ` with the other given entries:
+    /// Computes the pivot entries of y such that `C·y = γ`, where the other entries of y are given:
     /// `Uᵀ·s = γ`, `L₁ᵀ·y₁ = s − L₂ᵀ·y₂`.
     pub(super) fn determine(&self, gamma: &[f64], y: &mut [f64]) {
         for (j, (&row, &at)) in self.solved.used.iter().zip(&self.solved.pivot).enumerate() {
@@ -406,8 +408,8 @@ impl TallLu {
         }
     }
 
-    /// Computes λ of the rows in use with `L·U·λ = g`. All of these equations are satisfied if
-    /// those of L₁ are. Overwrites g, which is given by coordinates.
+    /// Computes λ of the rows in use from `L·U·λ = g`. If the equations of L₁ are satisfied, all
+    /// equations are satisfied. The function overwrites g, whose entries belong to coordinates.
     pub(super) fn solve_for_multipliers(&self, g: &mut [f64], lambda: &mut [f64]) {
         for (j, &at) in self.solved.pivot.iter().enumerate() {
             let g_j = g[at];
@@ -424,8 +426,8 @@ impl TallLu {
         }
     }
 
-    /// Returns sign and logarithm of `sign(P)·Π u_jj`, where P puts the pivot coordinates first,
-    /// and then the free ones.
+    /// Returns the sign and the logarithm of `sign(P)·Π u_jj`. The permutation P puts the pivot
+    /// coordinates first, followed by the free coordinates.
     pub(super) fn determinant(&self) -> (f64, f64) {
         let order: Vec<usize> = self
             .solved

@@ -1,6 +1,6 @@
-//! The order in which rows are eliminated, and the best pivot coordinate of each row. From all rows
-//! and coordinates with a large entry, the pair with the least work for the remaining rows comes
-//! first.
+//! The order in which rows are eliminated, and the best pivot coordinate of each row. Candidates
+//! are all pairs of a row and a coordinate in which the row has a large entry. The pair with the
+//! least work for the remaining rows comes first.
 //!
 //! If a row has e entries, and d other rows have entries in its pivot coordinate, the elimination
 //! takes d·(e − 1) products and adds its other entries to the d rows. Source: H. M. Markowitz, The
@@ -13,8 +13,8 @@ use std::collections::BinaryHeap;
 use super::lists::Entry;
 use crate::limits::{PIVOT_PLANNED, REVISED};
 
-/// Rows in the order of their elimination, each with its planned pivot coordinate, which is used if
-/// its entry is large enough.
+/// Rows in the order of their elimination, each with its planned pivot coordinate. The planned
+/// coordinate is used if its entry is large enough.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Order {
     pub(super) rows: Vec<usize>,
@@ -22,8 +22,9 @@ pub(super) struct Order {
 }
 
 impl Order {
-    /// Determines the order for n coordinates and rows with these entries, including entries that
-    /// are zero now but not at other configurations. Only some coordinates can be pivots, or all.
+    /// Determines the order for n coordinates and rows with these entries. The entries include
+    /// values that are zero now but not at other configurations. `solvable` restricts the
+    /// coordinates that can be pivots.
     pub(super) fn new(n: usize, rows: Vec<Vec<Entry>>, solvable: Option<&[bool]>) -> Self {
         if rows.iter().all(|row| row.len() == n) {
             // If all rows are dense, L and U are full in every order.
@@ -193,7 +194,7 @@ mod tests {
         let found = order(5, &[hub, &links[0], &links[1], &links[2]]);
         assert_eq!(found.wish[..3], [1, 2, 3].map(Some));
         assert_eq!(found.rows[..3], [0, 1, 2]);
-        // An entry that is too small, or zero, is not planned as a pivot.
+        // An entry that is too small or zero is not planned as a pivot.
         let small = [(0, 1.0), (2, 0.49)];
         let found = order(5, &[hub, &small, &[(0, 1.0), (3, 0.0)], &links[2]]);
         assert_eq!(

@@ -1,13 +1,13 @@
-//! Distinguishes the two sides of a singular configuration. The determinant of C, bordered by a
-//! fixed basis of its null space, changes its sign if the rows lose their rank by one, even if no
-//! integration step ends at the singular configuration.
+//! Distinguishes the two sides of a singular configuration. C is bordered by a fixed basis of its
+//! null space. The determinant of the bordered matrix changes its sign if the rows lose their rank
+//! by one, even if no integration step ends at the singular configuration.
 
 use super::KeptRowSaddle;
 use crate::lu::Determinant;
 
 impl KeptRowSaddle {
-    /// Writes a basis of the null space of the factored rows, k = n − r vectors of n, one after the
-    /// other.
+    /// Writes a basis of the null space of the factored rows. The basis consists of k = n − r
+    /// vectors of length n, one after the other.
     ///
     /// # Panics
     /// Panics if the length of `frame` is not k·n.
@@ -24,7 +24,7 @@ impl KeptRowSaddle {
 
     /// Returns the determinant of `[Cᵀ B]` for k vectors B, stored one after the other.
     ///
-    /// With `P·Cᵀ = L·U` and the null space basis N it is `sign(P)·Π u_jj·det(Nᵀ·B)`.
+    /// With `P·Cᵀ = L·U` and the null space basis N, the determinant is `sign(P)·Π u_jj·det(Nᵀ·B)`.
     ///
     /// ```
     /// use pfaff_linalg::KeptRowSaddle;
@@ -69,7 +69,7 @@ impl KeptRowSaddle {
         }
     }
 
-    /// Returns the sign of [`KeptRowSaddle::bordered`]: +1, −1, or 0 if the determinant vanishes.
+    /// Returns the sign of [`KeptRowSaddle::bordered`]: +1, −1, or 0 if the determinant is zero.
     /// Only values for the same B and neighbouring C are comparable.
     ///
     /// # Panics

@@ -1,7 +1,7 @@
-//! A partition of the coordinates into dependent and free ones that does not change between
-//! factorisations. Without it, every factorisation chooses its own partition, which is safer and
-//! gives the same solutions. With it, the free coordinates are coordinates of a manifold, and the
-//! rows determine the others.
+//! A partition of the coordinates into dependent and free coordinates that does not change between
+//! factorisations. Without a fixed partition, every factorisation chooses its own partition, which
+//! is safer and gives the same solutions. With a fixed partition, the free coordinates are
+//! coordinates of a manifold, and the rows determine the dependent coordinates.
 
 use super::KeptRowSaddle;
 use super::error::{SaddleError, check_finite, check_length};
@@ -9,8 +9,8 @@ use super::error::{SaddleError, check_finite, check_length};
 impl KeptRowSaddle {
     /// From the next factorisation onwards, uses these coordinates as pivots: one for each row, in
     /// any order. A good choice is, for example, the first columns of a
-    /// [`PivotedQr`](crate::PivotedQr) of the rows; [`KeptRowSaddle::pivot_ratio`] shows when these
-    /// coordinates are no longer a good choice.
+    /// [`PivotedQr`](crate::PivotedQr) of the rows. [`KeptRowSaddle::pivot_ratio`] indicates when
+    /// these coordinates are no longer a good choice.
     ///
     /// # Errors
     /// [`SaddleError::Length`], [`SaddleError::Partition`]: the argument does not contain r
@@ -34,7 +34,7 @@ impl KeptRowSaddle {
     }
 
     /// Returns the pivot coordinates of the last factorisation, one for each row in use. With
-    /// graded masses, these are light coordinates.
+    /// graded masses, the pivot coordinates are light coordinates.
     pub fn solved_for(&self) -> &[usize] {
         self.lu.pivots()
     }
@@ -45,7 +45,7 @@ impl KeptRowSaddle {
     }
 
     /// Overwrites the dependent entries of `x` so that `C·x = γ`, and does not change the free
-    /// ones. The function needs no masses and does not allocate memory.
+    /// entries. The function needs no masses and does not allocate memory.
     ///
     /// ```
     /// use pfaff_linalg::KeptRowSaddle;
@@ -61,7 +61,7 @@ impl KeptRowSaddle {
     /// ```
     ///
     /// # Errors
-    /// Same errors as [`KeptRowSaddle::solve`].
+    /// Returns the same errors as [`KeptRowSaddle::solve`].
     pub fn complete(&mut self, gamma: &[f64], x: &mut [f64]) -> Result<(), SaddleError> {
         if !self.is_factored {
             return Err(SaddleError::NotFactored);
@@ -137,7 +137,7 @@ mod tests {
         assert_eq!(solved_for(ROWS[0]), 1);
     }
 
-    /// The same test for a pivot that reduces the work for other rows: the other rows also have
+    /// The same test for a pivot that reduces the work for other rows. The other rows also have
     /// entries in coordinate 0.
     #[test]
     fn a_row_is_solved_for_the_same_entry_while_that_is_large() {

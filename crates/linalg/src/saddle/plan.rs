@@ -4,17 +4,19 @@ use super::lists::{Entry, Lists};
 use super::order::Order;
 use crate::limits::{CANDIDATE, LARGEST_REPEATED, PIVOT_CHOSEN, PIVOT_REPEATED};
 
-/// Data that determine the pivot coordinates of rows.
+/// Data that determine the pivot coordinates of the rows.
 #[derive(Debug, Clone)]
 pub(super) struct Plan {
-    /// Coordinates that may be pivots; all if `None`.
+    /// Coordinates that may be pivots; `None` permits all coordinates.
     solvable: Option<Vec<bool>>,
-    /// Whether smaller entries may be pivots to reduce the work for other rows. This is not allowed
-    /// if it has no advantage, or if pivots must show how suitable the given coordinates are.
+    /// Whether smaller entries may be pivots to reduce the work for other rows. Smaller pivots are
+    /// not allowed if they have no advantage, or if the pivots must indicate how suitable the given
+    /// coordinates are.
     spares: bool,
     pub(super) order: Order,
-    /// The position of each row in the order (no entries before the order is chosen), and for each
-    /// coordinate the positions of the rows that can have entries there, ascending.
+    /// The position of each row in the order (empty before the order is chosen). For each
+    /// coordinate, a second field contains the positions of the rows that can have entries in it,
+    /// ascending.
     place: Vec<u32>,
     touching: Lists,
 }
@@ -31,8 +33,8 @@ impl Plan {
         }
     }
 
-    /// From the next factorisation, only these coordinates can be pivots; all if `None`. The order
-    /// must be chosen again.
+    /// Permits only these coordinates as pivots from the next factorisation on; `None` permits all.
+    /// The order must be chosen again.
     pub(super) fn solve_for(&mut self, solvable: Option<Vec<bool>>) {
         self.solvable = solvable;
         self.place.clear();
@@ -81,9 +83,9 @@ impl Plan {
         }
     }
 
-    /// Returns the planned pivot coordinate of a row, in which the row affects the other rows
-    /// least, if there is one. Also returns a function for the number of later rows that can have
-    /// entries in a coordinate.
+    /// Returns the planned pivot coordinate of a row, if there is one. In this coordinate the row
+    /// affects the other rows least. Also returns a function for the number of later rows that can
+    /// have entries in a coordinate.
     pub(super) fn of_row(&self, row: usize) -> (Option<usize>, impl Fn(usize) -> usize) {
         let place = self.place[row];
         let later = move |i: usize| {
@@ -94,8 +96,9 @@ impl Plan {
     }
 }
 
-/// Criterion for the pivot entry of a row: its size, and masses if they are graded, or otherwise
-/// the number of later rows in its coordinate.
+/// Criterion for the pivot entry of a row. The criterion uses the size of the entry. If the masses
+/// are graded, the criterion also uses the masses. If they are not graded, it uses the number of
+/// later rows in the coordinate of the entry.
 #[derive(Clone, Copy)]
 pub(super) struct Choice<'a> {
     solvable: Option<&'a [bool]>,
@@ -108,9 +111,9 @@ pub(super) struct Choice<'a> {
 pub(super) type RowPivot = (usize, f64);
 
 impl Choice<'_> {
-    /// Returns the pivot coordinate, or `None` if no entry can be a pivot. It is the planned
-    /// coordinate if its entry is large enough, or otherwise the coordinate in which the fewest
-    /// later rows can have entries.
+    /// Returns the pivot coordinate, or `None` if no entry can be a pivot. The pivot coordinate is
+    /// the planned coordinate if its entry is large enough. Otherwise it is the coordinate in which
+    /// the fewest later rows can have entries.
     pub(super) fn best(
         self,
         x: &[f64],
@@ -166,8 +169,8 @@ impl Choice<'_> {
         candidates.reduce(lighter)
     }
 
-    /// Returns the size of the largest possible pivot entry, if the entry of this coordinate is
-    /// still as good as the best one, up to the share [`PIVOT_REPEATED`].
+    /// Returns the size of the largest possible pivot entry, if the entry of this coordinate is at
+    /// least the share [`PIVOT_REPEATED`] of the best entry.
     pub(super) fn largest(
         self,
         x: &[f64],
@@ -195,7 +198,7 @@ impl Choice<'_> {
         let best = self.lightest(x, all, largest)?;
         let share = LARGEST_REPEATED * x[best];
         let is_light = x[at] * x[at] * mass[best] >= share * share * mass[at];
-        // In comparisons, the pivot of a row with a light coordinate is its own entry.
+        // A pivot with a light coordinate is compared with its own entry.
         (pivot >= CANDIDATE * largest && is_light).then_some(pivot)
     }
 }

@@ -1,12 +1,12 @@
 //! Iterative refinement. After a factorisation in double precision, the residual of the equations
-//! is computed in double-double, and the equations are solved for the residual. This is repeated
-//! until the solution, which is also double-double, has all digits of an `f64`.
+//! is computed in double-double, and the equations are solved for the residual. The refinement is
+//! repeated until the solution, which is also double-double, has all digits of an `f64`.
 //!
 //! One round multiplies the error by about the error of the factorisation, so one or two rounds are
-//! enough. The solution is that of the given C, M, f and γ; rounding errors in these data remain.
-//! Source: N. J. Higham, Accuracy and Stability of Numerical Algorithms, 2nd edition, chapter 12;
-//! the extended iterate after J. Demmel et al., Error bounds from extra-precise iterative
-//! refinement, ACM TOMS 32 (2006) 325–351.
+//! enough. The refined solution belongs to the given C, M, f and γ; rounding errors in these data
+//! remain. Source: N. J. Higham, Accuracy and Stability of Numerical Algorithms, 2nd edition,
+//! chapter 12; the extended iterate after J. Demmel et al., Error bounds from extra-precise
+//! iterative refinement, ACM TOMS 32 (2006) 325–351.
 
 use super::KeptRowSaddle;
 use super::error::{SaddleError, check_length};
@@ -19,9 +19,9 @@ use crate::limits::{REFINEMENT_NOISE, REFINEMENT_ROUNDS, SETTLED};
 pub struct Refinement {
     a: Unknowns,
     lambda: Unknowns,
-    /// Residual of the forces, f − M·a − Cᵀ·λ.
+    /// Residual of the forces, `f − M·a − Cᵀ·λ`.
     force: Vec<Dd>,
-    /// The residual of the forces and γ − C·a, rounded to `f64`.
+    /// The residual of the forces and the residual `γ − C·a`, rounded to `f64`.
     f: Vec<f64>,
     gamma: Vec<f64>,
 }
@@ -30,13 +30,13 @@ pub struct Refinement {
 #[derive(Debug, Clone)]
 struct Unknowns {
     x: Vec<Dd>,
-    /// Change in a round.
+    /// Change of each unknown in the present round.
     change: Vec<f64>,
     /// Size of the change in the previous round.
     before: Vec<f64>,
     /// Reference sizes for changes: the largest value of each unknown.
     size: Vec<f64>,
-    /// Changes of this size are rounding.
+    /// Changes of at most this size are rounding.
     noise: f64,
 }
 
@@ -51,7 +51,7 @@ impl Unknowns {
         }
     }
 
-    /// Starts with the first solution, which is in `change`.
+    /// Starts with the first solution, which is stored in `change`.
     fn begin(&mut self) {
         self.x.fill(Dd::ZERO);
         self.before.fill(0.0);
@@ -60,8 +60,8 @@ impl Unknowns {
         self.add();
     }
 
-    /// Adds the change. Returns the largest change relative to the size of the unknown, or NaN. An
-    /// unknown that is zero except for rounding has the size of its rounding.
+    /// Adds the change. Returns the largest change relative to the size of the unknown, or NaN. For
+    /// an unknown that is zero except for rounding, the size is its rounding error.
     fn add(&mut self) -> f64 {
         let mut largest = 0.0;
         for (i, change) in self.change.iter().enumerate() {
@@ -98,9 +98,10 @@ impl Refinement {
 }
 
 impl KeptRowSaddle {
-    /// Works like [`KeptRowSaddle::solve`], with all digits that the given equations determine. The
-    /// function does not allocate memory. It takes two to three times the work of a factorisation,
-    /// most of it in double-double; see [`KeptRowSaddle::wants_refinement`].
+    /// Works like [`KeptRowSaddle::solve`], but returns all digits that the given equations
+    /// determine. The function does not allocate memory. The function takes two to three times the
+    /// work of a factorisation. Most of this work is in double-double; see
+    /// [`KeptRowSaddle::wants_refinement`].
     ///
     /// | argument | shape | meaning |
     /// | --- | --- | --- |
@@ -121,7 +122,7 @@ impl KeptRowSaddle {
     /// ```
     ///
     /// # Errors
-    /// Same errors as [`KeptRowSaddle::solve`], and:
+    /// Returns the same errors as [`KeptRowSaddle::solve`], and:
     /// - [`SaddleError::Length`]: the storage belongs to equations of another size.
     /// - [`SaddleError::Unrefined`]: the rounds do not converge.
     pub fn solve_refined<'c>(
@@ -220,7 +221,7 @@ mod tests {
         saddle
     }
 
-    /// Rounding of zero in double-double if other values are as large as 2⁵³.
+    /// Bound of the rounding of a zero in double-double if other values are as large as 2⁵³.
     const ZERO_LEFT: f64 = 1e-15 * f64::EPSILON;
 
     /// All values are integers below 2⁵³, so f = M·a + Cᵀ·λ and γ = C·a are exact: every bit of a
@@ -316,7 +317,7 @@ mod tests {
     /// numbers in a refined solution. This error must not prevent convergence.
     #[test]
     fn unknowns_that_are_zero_do_not_keep_others_waiting() {
-        // The first two rows fix x and y. The third and fourth rows connect z and w to them by
+        // The first two rows fix x and y. The third and fourth rows connect z and w to x and y by
         // coefficients without an exact binary representation.
         let c = Matrix::from_rows(&[
             [1.0, 0.0, 0.0, 0.0, 0.0],

@@ -17,7 +17,7 @@ impl KeptRowSaddle {
     /// | `lambda` | r | overwritten: multipliers of the rows, zero for skipped rows |
     ///
     /// # Errors
-    /// - [`SaddleError::NotFactored`]: there was no successful `factor` before.
+    /// - [`SaddleError::NotFactored`]: no successful `factor` precedes this call.
     /// - [`SaddleError::Length`], [`SaddleError::NonFinite`]: bad input; outputs are not changed.
     pub fn solve(
         &mut self,
@@ -31,10 +31,11 @@ impl KeptRowSaddle {
         self.multipliers(f, a, lambda)
     }
 
-    /// Works like [`Self::solve`], without λ. This takes two thirds of the work.
+    /// Works like [`Self::solve`], but does not compute λ. The function takes two thirds of the
+    /// work.
     ///
     /// # Errors
-    /// Same errors as [`KeptRowSaddle::solve`].
+    /// Returns the same errors as [`KeptRowSaddle::solve`].
     pub fn motion(&mut self, f: &[f64], gamma: &[f64], a: &mut [f64]) -> Result<(), SaddleError> {
         let n = self.lu.n;
         if !self.is_factored {
@@ -54,7 +55,7 @@ impl KeptRowSaddle {
         Ok(())
     }
 
-    /// Computes λ from `Cᵀ·λ = f − M·a` with the last factorisation, for an a that solves the
+    /// Computes λ from `Cᵀ·λ = f − M·a` with the last factorisation. The given a must solve the
     /// equations. The function does not allocate memory.
     ///
     /// | argument | shape | meaning |
@@ -65,7 +66,7 @@ impl KeptRowSaddle {
     /// | `lambda` | r | overwritten: multipliers of the rows, zero for skipped rows |
     ///
     /// # Errors
-    /// Same errors as [`KeptRowSaddle::solve`].
+    /// Returns the same errors as [`KeptRowSaddle::solve`].
     pub fn multipliers(
         &mut self,
         f: &[f64],

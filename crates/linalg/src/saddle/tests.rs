@@ -6,7 +6,8 @@ use proptest::prelude::*;
 
 use super::*;
 
-/// Allowed forward error per unit of condition number: a small multiple of eps for orders up to 24.
+/// Allowed forward error per unit of condition number. It is a small multiple of eps for orders up
+/// to 24.
 const FORWARD: f64 = 1e-14;
 
 fn saddle_matrix(c: &DMatrix<f64>, mass: &[f64]) -> DMatrix<f64> {
@@ -36,8 +37,8 @@ proptest! {
         let mut saddle = KeptRowSaddle::new(n, r).unwrap();
         let factored = saddle.factor(|k| &data[k * n..(k + 1) * n], mass);
         if condition.is_nan() || condition > 1e12 {
-            // Random matrices with too many massless coordinates or dependent rows (NaN: a matrix
-            // of zeros): an error or an inaccurate result is allowed.
+            // For random matrices with too many massless coordinates or dependent rows, an error or
+            // an inaccurate result is allowed. The condition is NaN for a matrix of zeros.
             return Ok(());
         }
         prop_assert!(factored.is_ok(), "{:?} at condition {:e}", factored, condition);
@@ -70,7 +71,7 @@ proptest! {
 
 #[test]
 fn masses_over_24_decades_on_one_rod() {
-    // Two carts of masses 1 and 1e24 (and 1e-24) tied together: a = F/(m₀ + m₁).
+    // Two carts of masses 1 and 1e24 (and 1e-24) are tied to each other: a = F/(m₀ + m₁).
     let c = [1.0, -1.0];
     for heavy in [1e24, 1e-24, 0.0] {
         let mut saddle = KeptRowSaddle::new(2, 1).unwrap();
@@ -104,8 +105,8 @@ fn massless_motion_is_named() {
     assert_eq!(refused, Err(SaddleError::NotFactored));
 }
 
-/// The null vector is exactly (0, t, −s). Rounding puts about 1e-17 into its first entry, the only
-/// one with a mass, and this does not count as a mass.
+/// The null vector is exactly (0, t, −s). Only the first coordinate has a mass. Rounding puts about
+/// 1e-17 into the first entry of the null vector, and this value does not count as a mass.
 #[test]
 fn rounding_of_the_null_vector_gives_no_mass() {
     let (s, t) = (0.3, 0.7);
@@ -227,7 +228,7 @@ fn graded_masses_choose_among_the_large_entries() {
     }
 }
 
-/// Elimination leaves exactly `left` of the second row.
+/// Exactly `left` of the second row remains after the elimination.
 #[test]
 fn a_pivot_of_a_few_roundings_is_no_pivot() {
     for (roundings, is_lost) in [(15.0, true), (17.0, false)] {
@@ -239,8 +240,8 @@ fn a_pivot_of_a_few_roundings_is_no_pivot() {
     }
 }
 
-/// Two rows that depend on each other at an instant leave one more free motion. Above a limit, the
-/// null space is not computed.
+/// If two rows depend on each other at an instant, there is one more free motion. Above a limit,
+/// the null space is not computed.
 #[test]
 fn many_free_motions_stop_a_factorisation() {
     let rows = [[1.0, 0.0, 0.0], [1.0, 1e-9, 0.0]];

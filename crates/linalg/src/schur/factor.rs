@@ -7,14 +7,15 @@ use crate::limits::{SCHUR_NOISE, SCHUR_WHOLE};
 use crate::{SaddleError, SparseMatrix};
 
 impl SchurSaddle {
-    /// Factors `S = C·M⁻¹·Cᵀ` for rows of the pattern of the structure and the diagonal of M.
+    /// Factors `S = C·M⁻¹·Cᵀ`. The rows C have the pattern of the structure, and `mass` is the
+    /// diagonal of M.
     ///
     /// # Errors
     /// - [`SaddleError::Length`], [`SaddleError::NonFinite`], [`SaddleError::NegativeMass`]: bad
     ///   input.
     /// - [`SaddleError::ZeroMass`]: a coordinate has no mass.
-    /// - [`SaddleError::RankLost`]: a row depends on others to the accuracy of S, because less than
-    ///   1e-7 of it is independent.
+    /// - [`SaddleError::RankLost`]: a row depends on other rows to the accuracy of S, because less
+    ///   than 1e-7 of the row is independent.
     pub fn factor(&mut self, c: &SparseMatrix, mass: &[f64]) -> Result<(), SaddleError> {
         self.factor_above(0.0, c, mass)?;
         let Some(row) = (0..self.structure.n_rows()).find(|&k| !self.uses(k)) else {
@@ -29,12 +30,12 @@ impl SchurSaddle {
         })
     }
 
-    /// Works like [`Self::factor`], but skips rows whose independent fraction is at most `floor`:
-    /// if rows are dependent for an instant, the other rows determine the solution. The multiplier
+    /// Works like [`Self::factor`], but skips a row if its independent fraction is at most `floor`.
+    /// If rows are dependent for an instant, the other rows determine the solution. The multiplier
     /// of a skipped row is zero, and its equation is not satisfied.
     ///
     /// # Errors
-    /// Same errors as [`SchurSaddle::factor`], without [`SaddleError::RankLost`].
+    /// Returns the same errors as [`SchurSaddle::factor`], without [`SaddleError::RankLost`].
     pub fn factor_above(
         &mut self,
         floor: f64,
@@ -195,8 +196,8 @@ impl SchurSaddle {
 
     /// From now on, compares the independent share of each row with its present share. The order of
     /// elimination does not change, so the pivot of a row changes smoothly. Far from a singular
-    /// configuration, the independent share of one row may be much larger than that of another row.
-    /// A factorisation of the same rows has the same [`SchurSaddle::pivot_ratio`] as before.
+    /// configuration, the independent share of one row may be much larger than the share of another
+    /// row. A factorisation of the same rows has the same [`SchurSaddle::pivot_ratio`] as before.
     pub fn keep_shares(&mut self) {
         let smallest = self.factors.pivot_ratio.powi(2);
         let LdlFactors {
@@ -219,8 +220,8 @@ impl SchurSaddle {
 }
 
 impl SchurStructure {
-    /// Finds the entry that is not finite. If sums have overflowed, it finds the row at this
-    /// position.
+    /// Finds the entry that is not finite. If sums have overflowed, the function finds the row at
+    /// this position.
     fn not_finite(&self, c: &SparseMatrix, place: usize) -> SaddleError {
         let row = self.rows.place.iter().position(|&p| p == place);
         let of_row = (row.unwrap_or_default(), 0, f64::INFINITY);

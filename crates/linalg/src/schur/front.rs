@@ -1,15 +1,15 @@
 //! One dense front: its assembly, and the elimination of its pivots.
 //!
 //! A front is the lower triangle of a matrix of [tiles](super::tiles), stored by columns of tiles.
-//! The values of its diagonal tiles above the diagonal are finite but meaningless.
+//! The values above the diagonal of a diagonal tile are finite but meaningless.
 
 use super::structure::{InParent, RowsOfLane};
 use super::tiles::{
     Lane, SIDE, Tile, add_product, by_width, diagonal, of_columns, scaled, subtract_product, sum,
 };
 
-/// Adds the remainder of a child, a triangle with this number of row groups, to these rows and
-/// columns.
+/// Adds the remainder of a child front to these rows and columns. The remainder is a triangle with
+/// this number of row groups.
 pub(super) fn add_update(
     front: &mut [Tile],
     (update, of_child): (&[Tile], usize),
@@ -62,10 +62,10 @@ fn add_products<const N: usize>(
     }
 }
 
-/// Eliminates the first `p` pivots of a front and writes their columns of L:
-/// `F = L·D·Lᵀ + [0, 0; 0, update]`. Pivots that are at most `floor` of their size are skipped:
-/// their column of L and their inverse are zero. Returns the smallest ratio `D_k/size_k` of the
-/// other pivots.
+/// Eliminates the first `p` pivots of a front and writes their columns of L: `F = L·D·Lᵀ + [0, 0;
+/// 0, update]`. A pivot that is at most `floor` times its size is skipped. In this case, the column
+/// of L of this pivot and the inverse of the pivot are zero. Returns the smallest ratio
+/// `D_k/size_k` of the other pivots.
 pub(super) fn eliminate(
     (front, lanes): (&mut [Tile], usize),
     (inverse, p): (&mut [Lane], usize),

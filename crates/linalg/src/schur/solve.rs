@@ -1,4 +1,4 @@
-//! Solution with the factors, and correction of its rounding errors.
+//! Solution with the factors, and correction of the rounding errors of the solution.
 
 use super::tiles::{
     Lane, SIDE, Tile, add_times, add_transposed_times, by_width, dot, of_columns, subtract_times,
@@ -11,8 +11,8 @@ use crate::{SaddleError, SparseMatrix};
 
 impl SchurSaddle {
     /// Solves `M·a + Cᵀ·λ = f`, `C·a = γ` with the rows of the last factorisation. Rows that are
-    /// not satisfied to rounding are corrected with the same factors until they are satisfied, or
-    /// until a correction brings no improvement. Skipped rows are ignored.
+    /// not satisfied to rounding are corrected with the same factors. The corrections end if the
+    /// rows are satisfied, or if a correction brings no improvement. Skipped rows are ignored.
     ///
     /// | argument | shape | meaning |
     /// | --- | --- | --- |
@@ -61,8 +61,8 @@ impl SchurSaddle {
             // The first round computes the solution, so there is no earlier residual.
             if round > 1 {
                 let of_all = self.misfit_of_all(c, gamma);
-                // If large multipliers balance each other, their rounding remains after a
-                // correction.
+                // If large multipliers balance each other, the rounding error of the multipliers
+                // remains after a correction.
                 if of_all <= SCHUR_ROUNDING {
                     return Ok(());
                 }
@@ -91,7 +91,7 @@ impl SchurSaddle {
     /// a known motion a. The result is not corrected.
     ///
     /// # Errors
-    /// Same errors as [`SchurSaddle::solve`].
+    /// Returns the same errors as [`SchurSaddle::solve`].
     pub fn multipliers(
         &mut self,
         c: &SparseMatrix,
@@ -163,7 +163,8 @@ impl SchurSaddle {
     }
 
     /// Works like [`Self::take_residual`], but also returns the largest residual relative to its
-    /// terms. The terms use the larger of the accelerations and those of free bodies.
+    /// terms. The terms use the larger of two accelerations: the given ones, and the accelerations
+    /// of free bodies.
     fn take_misfit(&mut self, gamma: &[f64], a: &[f64]) -> f64 {
         let s = &self.structure;
         let SolutionScratch {
@@ -219,7 +220,8 @@ impl SchurSaddle {
         for value in values.as_flattened_mut() {
             *value = value.abs();
         }
-        // The sizes are subtracted below, so the size of the free acceleration is negative, too.
+        // The sizes are subtracted below. Therefore the size of the free acceleration is negative,
+        // too.
         for (terms, free) in terms.iter_mut().zip(&*free) {
             *terms = -free.abs();
         }
@@ -331,8 +333,8 @@ impl SchurSaddle {
     }
 }
 
-/// Eliminates the pivots of a diagonal tile, which has zeros on and above its diagonal, from their
-/// own group of values.
+/// Eliminates the pivots of a diagonal tile from its own group of values. The tile has zeros on and
+/// above its diagonal.
 fn solve_within(own: &mut Lane, tile: &Tile) {
     let mut x = *own;
     for n in 0..SIDE {

@@ -1,21 +1,21 @@
-//! Data that depend only on the pattern: an order of elimination, fronts, and the positions of all
-//! entries.
+//! Data that depend only on the pattern of the rows: an order of elimination, fronts, and the
+//! positions of all entries.
 //!
 //! Rows that touch the same blocks (bodies) are eliminated together. Each set of such rows is a
-//! node of a graph in which each block connects the nodes that touch it. The nodes are ordered by
-//! minimum degree. A front is a dense triangular matrix. Its rows are its pivots, which are
-//! eliminated in it, and the later rows with which the pivots have non-zero entries.
-//! `C_b·M_b⁻¹·C_bᵀ` of a block b is added to the front in which the first of its rows is a pivot.
-//! After elimination, the remainder of a front is added to the front of the first of its other
-//! rows, its parent. A front is merged with its parent if this does not increase the number of
-//! [tiles](super::tiles) of L.
+//! node of a graph. In this graph, each block connects the nodes that touch it. The nodes are
+//! ordered by minimum degree. A front is a dense triangular matrix. The rows of a front are its
+//! pivots, which are eliminated in the front, and the later rows with which the pivots have
+//! non-zero entries. The product `C_b·M_b⁻¹·C_bᵀ` of a block b is added to the front whose pivots
+//! include the first row of the block. After elimination, the remainder of a front is added to its
+//! parent. The parent is the front that has the first of the later rows as a pivot. A front is
+//! merged with its parent if this does not increase the number of [tiles](super::tiles) of L.
 
 use std::ops::Range;
 
 use super::tiles::{Lane, SIDE, diagonal, lanes, triangle};
 use crate::{EliminationTree, SparseMatrix};
 
-/// The pattern of `S = C·M⁻¹·Cᵀ` and of its factor.
+/// The pattern of `S = C·M⁻¹·Cᵀ` and of the factor of S.
 ///
 /// ```
 /// use pfaff_linalg::{SchurStructure, SparseMatrix};
@@ -29,19 +29,20 @@ use crate::{EliminationTree, SparseMatrix};
 #[derive(Clone, Debug)]
 pub struct SchurStructure {
     pub(super) rows: Rows,
-    /// Fronts in the order of elimination. Children come before their parents, the last child
-    /// directly before.
+    /// Fronts in the order of elimination. Children come before their parents, and the last child
+    /// comes directly before its parent.
     pub(super) fronts: Vec<Front>,
     /// Later rows of all fronts, as positions in the order.
     pub(super) later: Vec<u32>,
-    /// The position of each later row in the parent.
+    /// The position of each later row in the parent front.
     pub(super) in_parent: Vec<InParent>,
     pub(super) elements: Elements,
     pub(super) size: Size,
 }
 
 /// The rows of C and the order of their elimination. The positions of the pivots of a front begin
-/// with a new group of four; positions that complete its last group belong to no row.
+/// with a new group of four. The positions that complete the last group of a front belong to no
+/// row.
 #[derive(Clone, Debug)]
 pub(super) struct Rows {
     /// Number of columns of C.
@@ -68,20 +69,20 @@ pub(super) struct Elements {
 /// Rows of an element that are in the same group of four of its front.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct RowsOfLane {
-    /// The group in the front.
+    /// The group of four in the front.
     pub(super) lane: u32,
-    /// The position of each row in the order; padding has a position after all others.
+    /// The position of each row in the order; padding has a position after all rows.
     pub(super) places: [u32; SIDE],
 }
 
 impl RowsOfLane {
-    /// Returns the values of its rows; padding repeats the last value of x.
+    /// Returns the values of the rows from x; padding repeats the last value of x.
     #[inline(always)]
     pub(super) fn take_from(&self, x: &[f64]) -> Lane {
         self.places.map(|place| x[place as usize])
     }
 
-    /// Adds values of its rows; padding is ignored.
+    /// Adds the values of the rows to x; padding is ignored.
     #[inline(always)]
     pub(super) fn add_to(&self, x: &mut [f64], values: &Lane) {
         for (&place, value) in self.places.iter().zip(values) {
@@ -97,20 +98,20 @@ pub(super) struct Size {
     entries: usize,
     /// Number of tiles of L.
     pub(super) tiles: usize,
-    /// Largest number of tiles that are stored for their parents.
+    /// Largest number of tiles that are stored at the same time for parents.
     pub(super) waiting: usize,
-    /// Largest number of row groups of a front.
+    /// Largest number of row groups in a front.
     pub(super) front: usize,
     multiplications: f64,
 }
 
-/// Position of a row and its column in a front, as two offsets whose sum is an index of the values
-/// of the front: tiles of the same columns follow each other.
+/// Position of a row and its column in a front, as two offsets. The sum of the offsets is an index
+/// of the values of the front. Tiles of the same columns follow each other.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct InParent {
-    /// Start of its column, if there were tiles above the diagonal.
+    /// Start of the column, counted as if there were tiles above the diagonal.
     pub(super) column: u32,
-    /// Offset of its row from this start.
+    /// Offset of the row from this start.
     pub(super) row: u32,
 }
 
@@ -124,50 +125,51 @@ impl InParent {
     }
 }
 
-/// A dense triangle. Its pivots are padded to complete groups of four, and so are its other rows.
+/// A dense triangle. The pivots of the triangle are padded to complete groups of four. The later
+/// rows are also padded.
 #[derive(Clone, Debug)]
 pub(super) struct Front {
-    /// Number of its pivots, and the groups of their positions.
+    /// Number of pivots, and the groups of the positions of the pivots.
     pub(super) n_pivots: usize,
     pub(super) pivots: Range<usize>,
-    /// Range of its other rows in `later` and `in_parent`.
+    /// Range of the later rows of the front in `later` and `in_parent`.
     pub(super) rest: Range<usize>,
-    /// Range of the blocks that are added to it, in `elements`.
+    /// Range of the blocks that are added to the front, in `elements`.
     pub(super) elements: Range<usize>,
-    /// Fronts that have this front as parent, the last one first.
+    /// Fronts that have this front as parent, in reverse order of elimination.
     pub(super) children: Vec<usize>,
     /// Index of the first tile of L of this front.
     pub(super) l: usize,
 }
 
 impl Front {
-    /// Returns the number of groups of its pivots, and of its other rows.
+    /// Returns the number of groups of the pivots, and of the later rows.
     pub(super) fn lanes(&self) -> [usize; 2] {
         [self.pivots.len(), lanes(self.rest.len())]
     }
 
-    /// Returns the number of tiles that remain for its parent after elimination of its pivots.
+    /// Returns the number of tiles that remain for the parent after elimination of the pivots.
     pub(super) fn n_update(&self) -> usize {
         triangle(lanes(self.rest.len()))
     }
 }
 
-/// A block of columns, with the rows that touch it.
+/// A block of columns, and the rows that touch it.
 #[derive(Clone, Debug)]
 pub(super) struct Element {
     /// Range in the columns of all elements.
     pub(super) columns: Range<usize>,
     /// Range in the rows of all elements.
     pub(super) rows: Range<usize>,
-    /// Groups of values of the element: one for each column. First come all columns for the first
-    /// group of rows, then all columns for the next group.
+    /// Groups of values of the element, with one group of values for each column. All columns for
+    /// the first group of rows come first, followed by all columns for the next group.
     pub(super) values: Range<usize>,
 }
 
 impl SchurStructure {
-    /// Creates the structure for rows with this pattern, whose values are not used, and blocks of
-    /// columns. A column outside all blocks is a separate block, and a column in several blocks
-    /// belongs to the first.
+    /// Creates the structure for blocks of columns and rows with this pattern. The values of the
+    /// rows are not used. A column outside all blocks is a separate block, and a column in several
+    /// blocks belongs to the first.
     #[must_use]
     pub fn new(c: &SparseMatrix, blocks: &[Range<usize>]) -> Self {
         let blocks = Blocks::new(c, blocks);
@@ -294,7 +296,7 @@ impl Nodes {
     }
 }
 
-/// Returns the number of tiles of L in the columns of this number of pivots, with this number of
+/// Returns the number of tiles of L in the columns of this number of pivots, if there are `rest`
 /// other rows.
 fn tiles(pivots: usize, rest: usize) -> usize {
     let rest = lanes(rest);
@@ -303,10 +305,10 @@ fn tiles(pivots: usize, rest: usize) -> usize {
 
 /// Nodes in the order of elimination, with their later neighbours.
 struct Tree {
-    /// Nodes in this order.
+    /// Nodes in the order of elimination.
     order: Vec<usize>,
-    /// For each position: its later neighbours, ascending, and the number of previous positions
-    /// that are merged with it.
+    /// For each position: the later neighbours of its node, ascending, and the number of previous
+    /// positions that are merged with it.
     meets: Vec<Vec<usize>>,
     merged: Vec<usize>,
 }
@@ -316,7 +318,7 @@ impl Tree {
         let n = nodes.rows.len();
         let (order, meets) = postordered(EliminationTree::new(n, &nodes.touching));
         let width = |k: usize| nodes.rows[order[k]].len();
-        // Other rows of a front, and its columns so far.
+        // Number of other rows of a front, and number of its columns so far.
         let rows_of = |k: usize| meets[k].iter().map(|&j| width(j)).sum::<usize>();
         let mut merged = vec![0; n];
         let mut columns: Vec<usize> = (0..n).map(width).collect();
@@ -347,7 +349,7 @@ impl Tree {
 
     fn into_structure(self, c: &SparseMatrix, blocks: &Blocks, nodes: &Nodes) -> SchurStructure {
         let n = self.order.len();
-        // A node is the last one of a front, unless a later node has been merged with it.
+        // A node is the last node of a front, unless a later node has been merged with it.
         let mut end = n;
         let mut ends = Vec::new();
         while end > 0 {
@@ -355,7 +357,7 @@ impl Tree {
             end -= 1 + self.merged[end - 1];
         }
         ends.reverse();
-        // First position of each node, and the end of all positions as last entry.
+        // The first position of each node; the last entry is the end of all positions.
         let mut first = vec![0; n + 1];
         let mut place = vec![0; c.nrows()];
         let (mut from, mut next) = (0, 0);
@@ -465,7 +467,7 @@ impl SchurStructure {
             .flat_map(|&node| nodes.rows[node].iter().copied())
             .collect();
         of_block.sort_unstable_by_key(|&row| self.rows.place[row]);
-        // Columns of bodies remain grouped, in space and in the plane.
+        // The columns of a body remain grouped, in space and in the plane.
         let width = if matches!(own.len(), 3 | 6) {
             own.len()
         } else {
@@ -507,7 +509,7 @@ impl SchurStructure {
         });
     }
 
-    /// Connects fronts with their parents, and counts the values stored for them.
+    /// Connects fronts with their parents, and counts the values that are stored for the parents.
     fn join(&mut self, front_of: &[usize], first: &[usize]) {
         let node_of = |place: usize| first.partition_point(|&f| f <= place) - 1;
         let mut waiting = 0;

@@ -1,4 +1,5 @@
-//! Compares with the dense solver, which eliminates without forming S, and with closed forms.
+//! Compares results with the dense solver, which eliminates without forming S, and with closed
+//! forms.
 
 use crate::{KeptRowSaddle, Matrix, SaddleError, SchurSaddle, SchurStructure, SparseMatrix};
 
@@ -19,8 +20,8 @@ impl Numbers {
     }
 }
 
-/// Fewer rows than columns, between random bodies of this many columns each. About one entry in
-/// four is missing.
+/// Creates fewer rows than columns. The rows connect random bodies, each with this number of
+/// columns. About one entry in four is missing.
 fn random((bodies, width): (usize, usize), numbers: &mut Numbers) -> SparseMatrix {
     let joints = 1 + numbers.below(3 * bodies / 2);
     let mut rows: Vec<Vec<(usize, f64)>> = Vec::new();
@@ -59,7 +60,7 @@ fn random_mechanisms_move_as_with_the_dense_solver() {
     let mut numbers = Numbers(7);
     let mut compared = [0; 7];
     for k in 0..900 {
-        // Bodies in the plane, in space, and others.
+        // The number of columns of a body is that of the plane, of space, or another number.
         let width = [3, 6, 2][k % 3];
         let bodies = (1 + numbers.below(12), width);
         let c = random(bodies, &mut numbers);
@@ -140,8 +141,8 @@ fn a_dependent_row_is_left_out_or_refused() {
     assert!(saddle.uses(0) != saddle.uses(1));
 }
 
-/// Two rows that are always nearly parallel hide two others that become nearly parallel. The
-/// comparison of a row with its own earlier share detects this.
+/// Two rows that are always nearly parallel hide two other rows that become nearly parallel. The
+/// comparison of a row with its own earlier share detects the other rows.
 #[test]
 fn what_is_left_of_a_row_is_compared_with_itself() {
     let rows = |apart: f64| {
@@ -225,8 +226,8 @@ fn bad_numbers_are_refused() {
     assert_eq!(a, [1.0, -1.0]);
 }
 
-/// With unit masses, the remaining fraction of the second of two rows is the sine of the angle
-/// between them.
+/// With unit masses, the remaining fraction of the second row of a pair is the sine of the angle
+/// between the two rows.
 #[test]
 fn a_row_of_which_little_is_left_is_lost() {
     for (sine, is_lost) in [(0.7e-7, true), (1.5e-7, false)] {
@@ -239,13 +240,13 @@ fn a_row_of_which_little_is_left_is_lost() {
     }
 }
 
-/// A row that is `share` times the factored row, and rows with an initial residual of `miss` of
-/// their terms. Each correction leaves 1 − share² of the previous residual.
+/// Solves with a row that is `share` times the factored row, and with rows whose initial residual
+/// is `miss` times their terms. After each correction, 1 − share² of the previous residual remains.
 fn solved_by_factors_of_another_row(share: f64, miss: f64) -> Result<(), SaddleError> {
     let row = |x: f64| SparseMatrix::from_rows(2, [[(0, x), (1, -x)]]).expect("two columns");
     let mut saddle = SchurSaddle::new(SchurStructure::new(&row(1.0), &whole(2)));
     saddle.factor(&row(1.0), &[1.0; 2])?;
-    // Both masses have the same load, and one of them a small additional load.
+    // Both masses have the same load, and one mass has a small additional load.
     let f = [1.0 + 2.0 * miss, 1.0];
     saddle.solve(&row(share), &f, &[0.0], &mut [0.0; 2], &mut [0.0])
 }
@@ -263,14 +264,15 @@ fn corrections_go_on_while_they_halve_what_is_left() {
 
 #[test]
 fn what_corrections_leave_is_refused_from_a_billionth_on() {
-    // Two corrections, each of which leaves 0.6 of the residual.
+    // Two corrections. After each correction, 0.6 of the residual remains.
     for (left, is_poor) in [(0.7e-9, false), (1.4e-9, true)] {
         let found = solved_by_factors_of_another_row(0.4_f64.sqrt(), left / 0.36);
         assert_eq!(found.is_err(), is_poor, "{left}: {found:?}");
     }
 }
 
-/// Each correction leaves a thousandth of the previous residual: 1e-11, then 1e-14 of the terms.
+/// After each correction, a thousandth of the previous residual remains: 1e-11, then 1e-14 of the
+/// terms.
 #[test]
 fn a_correction_leaves_rounding_of_all_terms() {
     let row = |x: f64| SparseMatrix::from_rows(2, [[(0, x), (1, -x)]]).expect("two columns");

@@ -1,6 +1,6 @@
-//! Blocks of fronts and factors of 4 × 4 entries (tiles), and groups of four rows for the columns
-//! of elements (lanes). Rows are padded with zeros to whole tiles, so that no loop has a remainder,
-//! and the data of a tile stay in registers.
+//! Tiles are blocks of 4 × 4 entries of fronts and factors. Lanes are groups of four rows for the
+//! columns of elements. Rows are padded with zeros to whole tiles. Therefore no loop has a
+//! remainder, and the data of a tile stay in registers.
 
 /// Number of rows and columns of a tile.
 pub(super) const SIDE: usize = 4;
@@ -50,8 +50,8 @@ macro_rules! by_width {
 
 pub(super) use by_width;
 
-// Functions of one tile or group are never inlined. Otherwise the compiler would vectorise a loop
-// over tiles across them, with more shuffles than products, and not within each tile.
+// Functions of one tile or group are never inlined. If they were inlined, the compiler would
+// vectorise the loop over tiles instead of each tile, which needs more shuffles than products.
 
 /// Computes `T ← T + X·Yᵀ`.
 #[inline(never)]

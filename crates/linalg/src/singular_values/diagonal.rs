@@ -1,9 +1,9 @@
-//! Makes a bidiagonal matrix diagonal by rotations from both sides; only its singular values are
+//! Makes a bidiagonal matrix diagonal by rotations from both sides. Only its singular values are
 //! computed.
 //!
-//! Each step is a step of the implicit QR algorithm for BᵀB, which is not formed. A rotation of two
-//! columns with Wilkinson's shift creates an entry below the diagonal, which further rotations
-//! remove. A block with a zero on its diagonal is first divided at this zero.
+//! Each step is a step of the implicit QR algorithm for BᵀB; this product is not formed. A rotation
+//! of two columns with Wilkinson's shift creates an entry below the diagonal, which further
+//! rotations remove. A block with a zero on its diagonal is first divided at this zero.
 
 use crate::limits::QR_STEPS_EACH;
 
@@ -40,8 +40,8 @@ pub(super) fn iterate(d: &mut [f64], f: &mut [f64]) -> bool {
 fn step(d: &mut [f64], f: &mut [f64]) {
     let n = d.len();
     let shift = {
-        // The shift is the eigenvalue of the trailing 2×2 block of BᵀB that is closer to its last
-        // entry.
+        // The shift is an eigenvalue of the trailing 2×2 block of BᵀB. Of the two eigenvalues, it
+        // is the one closer to the last entry of the block.
         let before = if n > 2 { f[n - 3] } else { 0.0 };
         let (a, b, c) = (
             d[n - 2] * d[n - 2] + before * before,
@@ -103,7 +103,7 @@ fn cut_column(d: &mut [f64], f: &mut [f64]) {
     }
 }
 
-/// Returns cosine, sine and length with `[c s; −s c]·[a; b] = [r; 0]`.
+/// Returns the cosine c, the sine s and the length r with `[c s; −s c]·[a; b] = [r; 0]`.
 fn rotation(a: f64, b: f64) -> (f64, f64, f64) {
     if b == 0.0 {
         return (1.0, 0.0, a);

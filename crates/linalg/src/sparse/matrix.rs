@@ -1,4 +1,5 @@
-//! `SparseMatrix`: a matrix whose rows have few entries each, stored one after the other.
+//! `SparseMatrix`: a matrix whose rows have few entries each. The rows are stored one after the
+//! other.
 
 use crate::{Matrix, kernels};
 

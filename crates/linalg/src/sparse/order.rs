@@ -2,10 +2,10 @@
 //! bodies of a joint are connected.
 //!
 //! The elimination of a node joins all its neighbours to each other. The graph is therefore stored
-//! as a cover by cliques, not edge by edge. The joints are the first cliques, an eliminated node
-//! unites its cliques into one (element absorption), and storage never grows. A degree is bounded
-//! by `|L_p ∖ i| + Σ_e |L_e ∖ L_p|` over the cliques e of i, where `L_p` is the new clique. Nodes
-//! in the same cliques are treated as one node.
+//! as a cover by cliques, not edge by edge. The joints are the first cliques. An eliminated node
+//! unites its cliques into one clique (element absorption), and storage never grows. A degree is
+//! bounded by `|L_p ∖ i| + Σ_e |L_e ∖ L_p|` over the cliques e of i, where `L_p` is the new clique.
+//! Nodes in the same cliques are treated as one node.
 //!
 //! Source: P. R. Amestoy, T. A. Davis, I. S. Duff, An approximate minimum degree ordering
 //! algorithm, SIAM J. Matrix Anal. Appl. 17 (1996) 886–905.
@@ -17,7 +17,7 @@ mod tests;
 use buckets::Buckets;
 
 /// Returns an elimination order of the nodes `0..n` with little fill. The next node is
-/// approximately the one of least degree.
+/// approximately the node of least degree.
 ///
 /// `cliques` are sets of nodes that are all connected to each other; nodes not below `n` are
 /// ignored. The same input gives the same order.
@@ -39,21 +39,21 @@ pub fn minimum_degree(n: usize, cliques: &[Vec<usize>]) -> Vec<usize> {
 
 /// A graph as a cover by cliques, with nodes of the same cliques merged.
 struct Cover {
-    /// Nodes of each clique; empty if the clique is contained in another one.
+    /// Nodes of each clique. The list is empty if another clique contains the clique.
     nodes: Vec<Vec<usize>>,
-    /// Number of nodes of each clique, including merged ones.
+    /// Number of nodes of each clique, including merged nodes.
     size: Vec<usize>,
     /// Cliques of each node, ascending.
     cliques: Vec<Vec<usize>>,
     /// Nodes that were merged into each node.
     twins: Vec<Vec<usize>>,
-    /// One plus the number of twins; 0 after elimination or merging.
+    /// One plus the number of twins; 0 after the node is eliminated or merged.
     weight: Vec<usize>,
-    /// Number of nodes not yet eliminated, including merged ones.
+    /// Number of nodes not yet eliminated, including merged nodes.
     remaining: usize,
     /// The last elimination that marked each node.
     mark: Vec<usize>,
-    /// `|L_e ∖ L_p|` of the clique e, and the elimination in which it was counted.
+    /// The size `|L_e ∖ L_p|` of the clique e, and the elimination in which this size was counted.
     outside: Vec<(usize, usize)>,
     buckets: Buckets,
 }
@@ -115,7 +115,7 @@ impl Cover {
         for &i in &united {
             let mut beyond = 0;
             let outside = &self.outside;
-            // Removes cliques that are contained in the new one.
+            // Removes cliques that are contained in the new clique.
             self.cliques[i].retain(|&e| {
                 beyond += outside[e].0;
                 outside[e].0 > 0
@@ -147,7 +147,8 @@ impl Cover {
         self.nodes.push(united);
     }
 
-    /// Returns the neighbours of a node: the union of its cliques, which are removed.
+    /// Returns the neighbours of a node. The neighbours of a node are the union of its cliques,
+    /// which are removed.
     fn unite(&mut self, pivot: usize, stamp: usize) -> Vec<usize> {
         self.mark[pivot] = stamp;
         let mut united = Vec::new();
@@ -163,7 +164,7 @@ impl Cover {
         united
     }
 
-    /// Counts `|L_e ∖ L_p|` for all cliques that meet the new one.
+    /// Counts `|L_e ∖ L_p|` for all cliques e that share nodes with the new clique.
     fn count_outside(&mut self, united: &[usize], stamp: usize) {
         for &i in united {
             for &e in &self.cliques[i] {

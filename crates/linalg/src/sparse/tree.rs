@@ -1,10 +1,10 @@
-//! The elimination tree. It shows the nodes connected to a node when it is eliminated, and depends
-//! only on the pattern.
+//! The elimination tree. The tree contains the nodes that are connected to a node when the node is
+//! eliminated. The elimination tree depends only on the pattern.
 
 use super::minimum_degree;
 
 /// Nodes in an order of elimination with little fill, see [`minimum_degree`], and the connections
-/// created by their elimination. Nodes are identified by their *position* in this order.
+/// that the elimination creates. Nodes are identified by their *position* in this order.
 ///
 /// ```
 /// use pfaff_linalg::EliminationTree;
@@ -19,10 +19,10 @@ pub struct EliminationTree {
     pub order: Vec<usize>,
     /// Cliques whose first node is at this position.
     pub led: Vec<Vec<usize>>,
-    /// Positions that are connected to this one when it is eliminated, ascending; the first is its
-    /// parent.
+    /// Positions that are connected to this position when it is eliminated, ascending. The first of
+    /// these positions is the parent of this position.
     pub beyond: Vec<Vec<usize>>,
-    /// Positions that have this one as parent, ascending.
+    /// Positions that have this position as parent, ascending.
     pub children: Vec<Vec<usize>>,
 }
 
@@ -35,8 +35,8 @@ impl EliminationTree {
         tree.unwrap_or_else(|never| match never {})
     }
 
-    /// Works like [`Self::new`], as long as `admit` returns no error. The function `admit` is
-    /// called with each position, the order, and the later positions connected to it.
+    /// Works like [`Self::new`], but stops when `admit` returns an error. The function `admit` is
+    /// called with each position, the order, and the later positions connected to this position.
     ///
     /// # Errors
     /// Returns the first error of `admit`.

@@ -4,13 +4,13 @@
 const NONE: usize = usize::MAX;
 
 /// A subset of the nodes `0..n`, each with a degree below n. Among nodes of equal degree, the
-/// latest comes first.
+/// latest node comes first.
 pub(super) struct Buckets {
     first: Vec<usize>,
     next: Vec<usize>,
     previous: Vec<usize>,
     degree: Vec<usize>,
-    /// All lists below this one are empty.
+    /// All lists with an index below `least` are empty.
     least: usize,
 }
 

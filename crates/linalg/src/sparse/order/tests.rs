@@ -2,7 +2,7 @@
 
 use super::*;
 
-/// Number of entries of the Cholesky factor of a graph in an order: nodes are eliminated one by one
+/// Number of entries of the Cholesky factor of a graph in an order. Nodes are eliminated one by one
 /// with explicit sets of neighbours.
 fn fill(n: usize, cliques: &[Vec<usize>], order: &[usize]) -> usize {
     let mut sorted = order.to_vec();
