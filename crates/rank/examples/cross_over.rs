@@ -1,5 +1,6 @@
-//! One acceleration in the null space and through the Schur complement, on kept rows of growing
-//! mechanisms: from how many rows and free motions on is the Schur complement faster?
+//! Computes one acceleration in the null space and through the Schur complement, on kept rows of
+//! growing mechanisms. The program shows from how many rows and free motions on the Schur
+//! complement is faster.
 //!
 //! `cargo run --release -p pfaff-rank --example cross_over`
 #![allow(clippy::print_stdout, reason = "this example exists for its output")]
@@ -24,7 +25,8 @@ fn least(mut run: impl FnMut()) -> f64 {
     times.fold(f64::INFINITY, f64::min)
 }
 
-/// Kept rows and free motions, and microseconds of factorisation and solution in either way.
+/// Returns the numbers of kept rows and free motions, and the microseconds that factorisation and
+/// solution take with each method.
 fn compare(known: &Known) -> ([usize; 2], [f64; 2]) {
     let decided = decide_sparse(&known.c, 0.0, &known.bodies, Sketch::default()).expect("sparse");
     assert_eq!(decided.redundancy, known.redundancy, "{}", known.name);

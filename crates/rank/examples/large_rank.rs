@@ -1,6 +1,7 @@
-//! Rank, kept rows and unique rows of large sparse mechanisms whose answers are known, and how the
-//! time grows: `cargo run --release -p pfaff-rank --example large_rank`. With a directory as
-//! argument the matrices are also written to this directory, for `crates/bench/spqr`.
+//! Computes rank, kept rows and unique rows of large sparse mechanisms whose answers are known, and
+//! measures how the time grows: `cargo run --release -p pfaff-rank --example large_rank`. If a
+//! directory is given as argument, the matrices are also written to this directory, for
+//! `crates/bench/spqr`.
 #![allow(clippy::print_stdout, reason = "this example exists for its output")]
 
 use std::io::Write;
@@ -14,7 +15,7 @@ use pfaff_rank::{CoefficientReading, Sketch, SparsePattern};
 #[path = "../tests/mechanisms/mod.rs"]
 mod mechanisms;
 
-/// The matrix as lines `row column value` after a line of `rows columns entries`.
+/// Writes the matrix as lines `row column value` after a line `rows columns entries`.
 fn write(known: &Known, directory: &Path) -> std::io::Result<()> {
     let name = known.name.replace(' ', "_");
     let mut file = std::io::BufWriter::new(std::fs::File::create(directory.join(name + ".txt"))?);

@@ -1,10 +1,10 @@
-//! Circuits: minimal sets of rows that depend on each other. Circuits show which smallest sets of
-//! rows cause a redundancy.
+//! Circuits: minimal sets of rows that depend on each other. Circuits are the smallest sets of rows
+//! that cause a redundancy.
 //!
 //! Redundancy is a property of circuits, not of single rows. The p fundamental circuits (one for
 //! each dropped row) depend on which rows were dropped and may be long. Every circuit is the
-//! support of a vector `Z·y` that vanishes on a hyperplane of the dual, so all circuits follow from
-//! the hyperplanes. Short circuits describe the same dependencies with fewer rows.
+//! support of a vector `Z·y` that vanishes on a hyperplane of the dual. Therefore all circuits can
+//! be computed from the hyperplanes. Short circuits describe the same dependencies with fewer rows.
 
 use crate::limits::{HYPERPLANES_MAX, PIVOT_MIN};
 use std::cmp::Ordering;
@@ -21,19 +21,21 @@ use linalg::{kernels, powers::scale};
 pub struct Circuit {
     /// Rows with a non-zero coefficient, ascending.
     pub rows: Vec<usize>,
-    /// Coefficients for the rows of C as given, the first largest of them normalised to +1.
+    /// Coefficients for the rows of C as given. The first of the largest coefficients is normalised
+    /// to +1.
     pub coefficients: Vec<f64>,
     /// Some coefficients count as zero only because data within their stated tolerances could make
-    /// them zero. This is the largest of them, for equilibrated rows and divided by the largest
-    /// coefficient of the circuit. The value is zero if there is no such coefficient.
+    /// them zero. This value is the largest of these coefficients, for equilibrated rows and
+    /// divided by the largest coefficient of the circuit. The value is zero if there is no such
+    /// coefficient.
     pub left_out: f64,
 }
 
 /// Returns the fundamental circuit of each dropped row, in the order of `dropped`.
 ///
 /// To decide which rows belong to a circuit, the equilibrated coefficients are divided by the
-/// largest one and compared with the noise of their rows ([`RankDecision::row_noise`]); a row with
-/// margin zero belongs to no circuit. A row of zeros is a circuit of one row.
+/// largest coefficient and compared with the noise of their rows ([`RankDecision::row_noise`]). A
+/// row with margin zero belongs to no circuit. A row of zeros is a circuit of one row.
 #[must_use]
 pub fn circuits(decision: &RankDecision) -> Vec<Circuit> {
     fundamental(decision)
@@ -42,14 +44,15 @@ pub fn circuits(decision: &RankDecision) -> Vec<Circuit> {
         .collect()
 }
 
-/// Returns p independent circuits that are as short as possible: the shortest of all circuits, then
-/// the shortest one that is independent of it, and so on. This choice minimises the total length.
-/// The circuits are sorted by length, then by rows. The circuits do not depend on the dropped rows.
+/// Returns p independent circuits that are as short as possible. The first circuit is the shortest
+/// of all circuits. Each further circuit is the shortest that is independent of the previous
+/// circuits. This choice minimises the total length. The circuits are sorted by length, then by
+/// rows. The circuits do not depend on the dropped rows.
 ///
 /// A component (a set of coupled rows) of redundancy p_c has at most as many circuits as subsets of
-/// p_c − 1 of its rows. If there are more than 20 000 of these, or if rounding hides which rows
-/// belong to a circuit or whether a row belongs to any, the fundamental circuits of the component
-/// are returned. Fundamental circuits are also minimal and independent, but may be longer.
+/// p_c − 1 of its rows. The function returns the fundamental circuits of the component in two
+/// cases: if there are more than 20 000 such subsets, or if rounding hides which circuits a row
+/// belongs to. Fundamental circuits are also minimal and independent, but may be longer.
 ///
 /// ```
 /// use linalg::Matrix;
@@ -67,9 +70,11 @@ pub fn short_circuits(decision: &RankDecision) -> Vec<Circuit> {
     let mut found: Vec<Sparse> = Vec::with_capacity(decision.redundancy);
     for rows in components(decision).coupled {
         let dual = Dual::new(decision, &support, &rows);
-        // A component with one dropped row has one circuit, whose rows have already been decided.
+        // A component with one dropped row has one circuit. The rows of this circuit have already
+        // been decided.
         let shortest = (dual.dimension() > 1).then(|| shortest(&dual)).flatten();
-        // Each row of a component is in one of its circuits; otherwise noise has hidden the row.
+        // Each row of a component belongs to at least one of its circuits. Otherwise noise has
+        // hidden the row.
         let shortest = shortest.filter(|circuits| covers(circuits, &rows));
         match shortest {
             Some(circuits) => found.extend(circuits),
@@ -131,8 +136,8 @@ fn shortest(dual: &Dual) -> Option<Vec<Sparse>> {
 }
 
 /// Returns the circuit `Z̃·y` that vanishes on p − 1 independent vectors, together with y. Returns
-/// `None` if the vectors are dependent, or too noisy to decide which other rows the circuit
-/// contains.
+/// `None` if the vectors are dependent, or if they are too noisy to decide which other rows belong
+/// to the circuit.
 fn vanishing_on(vectors: Vec<Vec<f64>>, p: usize, dual: &Dual) -> Option<(Sparse, Vec<f64>)> {
     let hyperplane = eliminate(vectors, dual.noise).ok()?;
     if hyperplane.pivots.len() != p - 1 || hyperplane.smallest < PIVOT_MIN {
@@ -177,8 +182,8 @@ fn fundamental(decision: &RankDecision) -> Vec<Sparse> {
         .collect()
 }
 
-/// Returns the largest coefficient of the dependency, relative to the largest of all, that counts
-/// as zero although it is larger than rounding.
+/// Returns the largest coefficient of the dependency that counts as zero although it is larger than
+/// rounding. The value is relative to the largest of all coefficients.
 fn left_out(decision: &RankDecision, z: &Sparse) -> f64 {
     if !decision.has_tolerance() {
         return 0.0;
@@ -202,8 +207,8 @@ fn left_out(decision: &RankDecision, z: &Sparse) -> f64 {
 /// Returns the equilibrated coefficients in the scaling of C, normalised.
 fn circuit(decision: &RankDecision, z: &Sparse) -> Circuit {
     let exponents = &decision.scaling.rows;
-    // z̃ᵀ·D_r·C·D_c = 0: the coefficient of row i of C is z̃_i·2^rows[i]. Exponents relative to one
-    // of the rows keep the coefficients in range.
+    // z̃ᵀ·D_r·C·D_c = 0: the coefficient of row i of C is z̃_i·2^rows[i]. Exponents relative to the
+    // exponent of one of the rows keep the coefficients in range.
     let reference = z.last().map_or(0, |&(row, _)| exponents[row]);
     let scaled: Vec<f64> = z
         .iter()

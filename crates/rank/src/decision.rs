@@ -51,11 +51,11 @@ pub use explicit::{
     KeptRowsError, decide_dropping, decide_keeping, dropping_of_rank, with_dropped,
 };
 
-/// Works like [`decide`], with a given rank: data within a stated tolerance may have a lower rank
+/// Works like [`decide`], with a given rank. Data within a stated tolerance may have a lower rank
 /// than the matrix. The dropped rows then depend on the kept rows only approximately.
 ///
 /// # Errors
-/// Same errors as [`decide`].
+/// Returns the same errors as [`decide`].
 pub fn decide_of_rank<'a>(
     c: &Matrix,
     uncertainty: impl Into<Accuracy<'a>>,
@@ -66,8 +66,8 @@ pub fn decide_of_rank<'a>(
 }
 
 /// Returns rows that appear independent by the pivots of one factorisation, ascending. A Newton
-/// iteration may be tried with them; its convergence shows whether they are independent. This test
-/// is not a rank decision.
+/// iteration may be tried with these rows; its convergence shows whether they are independent. This
+/// test is not a rank decision.
 ///
 /// ```
 /// use linalg::Matrix;
@@ -78,7 +78,7 @@ pub fn decide_of_rank<'a>(
 /// ```
 ///
 /// # Errors
-/// Same errors as [`decide`].
+/// Returns the same errors as [`decide`].
 pub fn promising_rows<'a>(
     c: &Matrix,
     uncertainty: impl Into<Accuracy<'a>>,
@@ -111,29 +111,27 @@ fn read(c: &Matrix, uncertainty: Accuracy<'_>) -> Result<(Scaling, Matrix, Readi
     Ok((scaling, scaled, reading))
 }
 
-/// Returns τ of an m×n matrix whose equilibrated entries have this uncertainty.
+/// Returns τ of an m×n matrix. `uncertainty` is the uncertainty of its equilibrated entries.
 pub(crate) fn tolerance(m: usize, n: usize, uncertainty: f64) -> f64 {
     let rounding = f64::EPSILON * (m as f64 * n as f64).sqrt();
     NOISE_FACTOR * rounding.max(uncertainty)
 }
 
 impl RankDecision {
-    /// Returns the smallest singular value, in this equilibration, that kept rows need to count as
-    /// independent.
+    /// Returns the smallest singular value, in this equilibration, that kept rows must have to
+    /// count as independent.
     #[must_use]
     pub fn required_of_kept(&self) -> f64 {
         required(self.evidence.tolerance)
     }
 }
 
-/// Returns the lower limit for the smallest singular value that counts as non-zero: max(10³·τ,
-/// 10⁻⁷).
+/// Returns the lower limit for singular values that count as non-zero: max(10³·τ, 10⁻⁷).
 pub(crate) fn required(tolerance: f64) -> f64 {
     (CLEARANCE * tolerance).max(NEARLY_SINGULAR)
 }
 
-/// Returns σ_r and σ_{r+1}. The value is infinite for r = 0, and zero beyond the last singular
-/// value.
+/// Returns σ_r and σ_{r+1}. A value is infinite for r = 0, and zero beyond the last singular value.
 fn around(singular_values: &[f64], r: usize) -> [f64; 2] {
     let before = r.checked_sub(1).map(|k| singular_values[k]);
     let next = singular_values.get(r).copied();
@@ -167,8 +165,8 @@ fn projected(decision: &RankDecision, mut direction: Vec<f64>) -> Vec<f64> {
     direction
 }
 
-/// Returns the status of a rank with a clear gap: decided, unless the tolerance hides singular
-/// values that are not rounding.
+/// Returns the status of a rank with a clear gap. The rank is decided unless the tolerance hides
+/// singular values that are not rounding.
 pub(crate) fn shown(sigma_next: f64, tolerance: f64) -> RankStatus {
     if tolerance > HIDDEN && sigma_next > NOT_ROUNDING {
         RankStatus::Undecided(Doubt::Hidden {
@@ -231,7 +229,7 @@ impl Reading {
         }
     }
 
-    /// Returns the result for the same singular values if the rank is given.
+    /// Returns the result for the same singular values and a given rank.
     fn of_rank(self, rank: usize) -> Self {
         let rank = rank.min(self.evidence.singular_values.len());
         let [sigma_r, sigma_next] = around(&self.evidence.singular_values, rank);

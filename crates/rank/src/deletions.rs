@@ -1,12 +1,12 @@
-//! Determines which rows may be deleted without a change of motion, and which deletions make a
+//! Determines which rows may be deleted without changing the motion, and which deletions make a
 //! given multiplier unique.
 //!
-//! A set D of p rows is admissible iff the other rows still have rank r; equivalently iff the block
-//! `Z_D` of a left null space basis is nonsingular. Deleting D sets its multipliers to zero, and
-//! all other multipliers become unique. If fewer rows are deleted, some multipliers become unique:
-//! a combination `ℓᵀ·λ` becomes unique iff `ℓᵀ·Z` is in the row space of `Z_D`. All tests use the
-//! clear gap of rank decisions, on the coefficients of the decision. If a value lies in the gap,
-//! the result is an error that contains the value.
+//! A set D of p rows is admissible iff the other rows still have rank r. Equivalently, the block
+//! `Z_D` of a left null space basis must be nonsingular. Deleting D sets the multipliers of D to
+//! zero, and all other multipliers become unique. If fewer rows are deleted, some multipliers
+//! become unique: a combination `ℓᵀ·λ` becomes unique iff `ℓᵀ·Z` is in the row space of `Z_D`. All
+//! tests use the clear gap of rank decisions, on the coefficients of the decision. If a value lies
+//! in the gap, the result is an error that contains the value.
 //!
 //! The caller decides which rows are candidates for deletion.
 
@@ -58,7 +58,7 @@ pub enum DeletionError {
         /// Number of rows of the matrix.
         rows: usize,
     },
-    /// The target is not a list of combinations of all multipliers.
+    /// The target is not a list of combinations of all multipliers of the matrix.
     #[error("combinations have {found} coefficients, there are {rows} multipliers")]
     TargetShape {
         /// Number of columns of the target.
@@ -94,12 +94,12 @@ impl From<Unclear> for DeletionError {
     }
 }
 
-/// Returns the first `limit` admissible sets of p rows. Deleting one of these sets does not change
-/// the motion and makes all other multipliers unique.
+/// Returns the first `limit` admissible sets of p rows. The deletion of one of these sets does not
+/// change the motion and makes all other multipliers unique.
 ///
 /// The rows of a set ascend. The sets of one component (coupled rows) are in lexicographic order,
-/// and several components are combined like the digits of a number. [`count_deletions`] returns
-/// their number. A matrix of full rank has one such set, the empty one.
+/// and several components are combined like the digits of a number. [`count_deletions`] returns the
+/// number of all sets. A matrix of full rank has one such set, the empty set.
 ///
 /// ```
 /// use linalg::Matrix;
@@ -114,7 +114,7 @@ impl From<Unclear> for DeletionError {
 ///
 /// # Errors
 /// - [`DeletionError::Rank`]: the rank is undecided.
-/// - [`DeletionError::Unclear`]: for a set it is undecided whether it is admissible.
+/// - [`DeletionError::Unclear`]: it is undecided whether some set is admissible.
 pub fn deletions(decision: &RankDecision, limit: usize) -> Result<Vec<Vec<usize>>, DeletionError> {
     let mut sets = vec![Vec::new()];
     for dual in duals(decision)? {

@@ -6,8 +6,8 @@
 //! other rows form a circuit.
 //!
 //! Every test is a rank of a few vectors, computed by elimination with complete pivoting. The
-//! multipliers of the elimination are at most one, so the noise of all entries stays that of the
-//! decision. An entry between "zero" and "certainly not zero" is reported as an error.
+//! multipliers of the elimination are at most one. Therefore the noise of all entries remains the
+//! noise of the decision. An entry between "zero" and "certainly not zero" is reported as an error.
 
 use crate::decision::{CoefficientReading, Readings, Size, size};
 use crate::null_space::Support;
@@ -20,12 +20,12 @@ pub(crate) struct Unclear {
     pub(crate) noise: f64,
 }
 
-/// The accuracy of values, and the criterion for nonzero values.
+/// The accuracy of values, and the rule by which values count as nonzero.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Noise {
     pub(crate) value: f64,
-    /// The rules of a stated tolerance, which are also used for verdicts on reactions; `None` for
-    /// rounding.
+    /// The rules of a stated tolerance, which are also used for verdicts on reactions; `None` if
+    /// only rounding is considered.
     stated: Option<Readings>,
 }
 
@@ -37,7 +37,7 @@ impl Noise {
         }
     }
 
-    /// Returns the noise of values with this multiple of the uncertainty.
+    /// Returns the noise of values with `factor` times the uncertainty.
     pub(crate) fn times(self, factor: f64) -> Self {
         Self {
             value: factor * self.value,
@@ -62,7 +62,7 @@ pub(crate) struct Dual {
     pub(crate) rows: Vec<usize>,
     /// Vectors of the rows, in the same order.
     pub(crate) vectors: Vec<Vec<f64>>,
-    /// Noise of the entries, the largest of which is about one.
+    /// Noise of the entries. The largest entry is about one.
     pub(crate) noise: Noise,
 }
 
@@ -74,8 +74,8 @@ impl Dual {
         let coordinates: Vec<usize> = (0..decision.redundancy)
             .filter(|&j| inside(&decision.dropped[j]))
             .collect();
-        // Coordinates are scaled by their largest coefficient: a change of basis that makes their
-        // noise equal.
+        // Coordinates are scaled by their largest coefficient. This scaling is a change of basis
+        // that makes their noise equal.
         let unit = |j: usize| support.t.row(j).iter().fold(1.0_f64, |a, b| a.max(b.abs()));
         let vector = |row: usize| -> Vec<f64> {
             let of = |j: usize| match decision.kept.binary_search(&row) {

@@ -5,11 +5,11 @@
 
 // Dense ranks.
 
-/// Factor between the noise estimate and the tolerance τ. The rounding of an equilibrated matrix
-/// and the residual of the refined configuration were each measured; they differ at most by a
-/// factor of 4 from the singular value that they cause. Unit: 1. Too small: a rounding error counts
-/// as rank. Too large: exact redundancy hides small singular values. Test:
-/// `a_singular_value_clears_the_data_by_four`.
+/// Factor between the noise estimate and the tolerance τ. The noise estimates are the rounding of
+/// an equilibrated matrix and the residual of the refined configuration. In measurements, each
+/// estimate differed by at most a factor of 4 from the singular value that it causes. Unit: 1. Too
+/// small: a rounding error counts as rank. Too large: exact redundancy hides small singular values.
+/// Test: `a_singular_value_clears_the_data_by_four`.
 pub const NOISE_FACTOR: f64 = 10.0;
 
 /// The smallest non-zero singular value must exceed τ by this factor. Otherwise the rank is
@@ -30,41 +30,41 @@ pub const HIDDEN: f64 = 0.01;
 /// `coarse_data_hide_what_is_no_rounding`.
 pub const NOT_ROUNDING: f64 = 1.5e-8;
 
-/// The accuracy of a configuration near a singular one is about √eps, for any residual, because
-/// Newton's method stops there as at a double root. A smallest singular value below this limit may
-/// be zero at the true configuration. Unit: singular value of a matrix of norm one. Too small:
-/// singular configurations count as regular. Too large: configurations near singular ones are
-/// undecided. Test: `a_singular_value_between_is_undecided`.
+/// The accuracy of a configuration near a singular configuration is about √eps, for any residual,
+/// because Newton's method stops there as at a double root. A smallest singular value below this
+/// limit may be zero at the true configuration. Unit: singular value of a matrix of norm one. Too
+/// small: singular configurations count as regular. Too large: configurations near singular
+/// configurations are undecided. Test: `a_singular_value_between_is_undecided`.
 pub const NEARLY_SINGULAR: f64 = 1e-7;
 
 /// Below this smallest singular value, the decided rank is valid, but the reactions that it
-/// determines are large: of size 1/σ_r per unit of load. Data with an accuracy of only σ_r change
-/// these reactions by 100 %. Unit: singular value of a matrix of norm one. Too small: large
-/// reactions are not marked. Too large: sound mechanisms are marked. Test:
+/// determines are large. The size of these reactions is 1/σ_r for each unit of load. Data with an
+/// accuracy of only σ_r change these reactions by 100 %. Unit: singular value of a matrix of norm
+/// one. Too small: large reactions are not marked. Too large: sound mechanisms are marked. Test:
 /// `a_thousandth_is_nearly_redundant`.
 pub const NEARLY_REDUNDANT: f64 = 1e-3;
 
-/// Margin for the rounding of norms and of the last few operations, each a few eps times the number
-/// of entries (below 2³⁰). Unit: share of the bound. Too small: a rounding error makes a bound
-/// invalid. Too large: bounds are less sharp. Test: `bounds_are_below_and_near_the_truth`.
+/// Margin for the rounding of norms and of the last few operations. Each rounding is a few eps
+/// times the number of entries (below 2³⁰). Unit: share of the bound. Too small: a rounding error
+/// makes a bound invalid. Too large: bounds are less sharp. Test:
+/// `bounds_are_below_and_near_the_truth`.
 pub(crate) const BOUND_SLACK: f64 = 1e-6;
 
-/// Larger noise hides significant values, so that no value counts as zero relative to such noise.
-/// Unit: singular value of a matrix of norm one. Too small: no rank of coarse data is certified.
-/// Too large: significant values count as zero. Test:
-/// `a_number_counts_a_thousand_times_above_its_noise`.
+/// Noise above this limit hides significant values. No value then counts as zero. Unit: singular
+/// value of a matrix of norm one. Too small: no rank of coarse data is certified. Too large:
+/// significant values count as zero. Test: `a_number_counts_a_thousand_times_above_its_noise`.
 pub(crate) const NOISE_MAX: f64 = 1e-4;
 
 /// An entry determines the scale of its row and column only above this multiple of its uncertainty.
 /// The factor must not be smaller, because an entry that consists of several rounding errors of
-/// larger terms must not be scaled up to norm one. A large factor has no disadvantage, since the
+/// larger terms must not be scaled up to norm one. A larger factor has no disadvantage, since the
 /// rank does not depend on scales. Unit: multiples of the uncertainty of the entry. Too small:
 /// rounding errors are scaled up to norm one. Too large: small bodies are scaled badly. Test:
 /// `an_entry_near_its_uncertainty_does_not_set_the_scale`.
 pub const SIGNIFICANT: f64 = 1e5;
 
-/// Smallest singular value of one level, relative to the largest one of the level. It is above
-/// √eps, so that the solution in `f64` keeps half of its digits. Unit: share of the largest
+/// Smallest singular value of one level, relative to the largest one of the level. The value is
+/// above √eps, so that the solution in `f64` keeps half of its digits. Unit: share of the largest
 /// singular value. Too small: the solution of a level has no correct digits. Too large: there are
 /// more levels. Test: `exact_redundancy_falls_with_the_precision_and_misalignment_stays`.
 pub(crate) const LEVEL_SPREAD: f64 = 1e-6;
@@ -76,8 +76,8 @@ pub(crate) const CORRECTIONS_MAX: usize = 5;
 
 /// Number of primes of the zero tests. A minor of thousands of bits is divisible by fewer than 2¹⁰
 /// of the 2⁵⁵ primes. Therefore three primes agree by coincidence with a probability below 2⁻¹³⁰.
-/// Unit: primes. Too small: a nonzero minor may be zero modulo all primes and then counts as zero.
-/// Too large: the decision takes longer. Test: `primes_that_divide_a_determinant_are_outvoted`.
+/// Unit: primes. Too small: a nonzero minor that is zero modulo all primes may count as zero. Too
+/// large: the decision takes longer. Test: `primes_that_divide_a_determinant_are_outvoted`.
 pub(crate) const WITNESSES: usize = 3;
 
 /// σ_{r+1} vanishes if it decreases by ten digits below the 1e-16 of `f64`. The remaining value
@@ -86,7 +86,7 @@ pub(crate) const WITNESSES: usize = 3;
 /// far below a rounding error counts as exact. Test: `what_vanishes_is_ten_digits_below_rounding`.
 pub(crate) const VANISHES: f64 = 1e-26;
 
-/// A singular value above this multiple of the tolerance is larger than the data can explain. Unit:
+/// A singular value above this multiple of the tolerance is larger than errors of the data. Unit:
 /// multiples of the tolerance. Too small: data within their rounding count as misaligned. Too
 /// large: a misalignment counts as rounding. Test: `a_singular_value_clears_the_data_by_four`.
 pub(crate) const CLEAR_OF_DATA: f64 = 4.0;
@@ -146,24 +146,24 @@ pub(crate) const COEFFICIENT_CLEARANCE: f64 = 10.0;
 /// Test: `a_coefficient_has_to_clear_its_tolerance`.
 pub(crate) const TOLERANCE_MAX: f64 = 1e-5;
 
-/// The corresponding limit for the noise of a stated tolerance. The first order is not valid for
-/// larger changes. Unit: coefficient of the equilibrated dependencies. Too small: coefficients
-/// remain undecided for coarse tolerances. Too large: a first-order estimate is used outside its
-/// range of validity. Test: `within_a_tolerance_only_what_is_small_is_zero`.
+/// The limit that replaces [`TOLERANCE_MAX`] for the noise of a stated tolerance. The first order
+/// is not valid for larger changes. Unit: coefficient of the equilibrated dependencies. Too small:
+/// coefficients remain undecided for coarse tolerances. Too large: a first-order estimate is used
+/// outside its range of validity. Test: `within_a_tolerance_only_what_is_small_is_zero`.
 pub(crate) const STATED_MAX: f64 = 0.1;
 
 /// A coefficient above this limit does not count as zero within a stated tolerance. Data within the
-/// tolerance could make it zero, but need not do so, and a value that is reported as zero must be
+/// tolerance could make it zero, but need not do so. A value that is reported as zero must be
 /// insignificant. Unit: coefficient of the equilibrated dependencies. Too small: no coefficient is
 /// zero within coarse tolerances. Too large: significant reactions count as zero. Test:
 /// `within_a_tolerance_only_what_is_small_is_zero`.
 pub const STATED_ZERO: f64 = 1e-3;
 
 /// Data that vary within their stated tolerances change a coefficient. A coefficient that is larger
-/// than this factor times its change is certainly not zero. To make it zero, all data would have to
-/// be wrong by this number of tolerances at the same time. Ranks use the same factor. Unit: 1. Too
-/// small: the accuracy of data is overestimated. Too large: more coefficients are undecided. Test:
-/// `within_a_tolerance_only_what_is_small_is_zero`.
+/// than this factor times the change is certainly not zero. To make the coefficient zero, all data
+/// would have to be wrong by this number of tolerances at the same time. Ranks use the same factor.
+/// Unit: 1. Too small: the accuracy of data is overestimated. Too large: more coefficients are
+/// undecided. Test: `within_a_tolerance_only_what_is_small_is_zero`.
 pub const BEYOND_DOUBT: f64 = 3.0;
 
 /// A coefficient below this limit in double-double is zero, for any accuracy of the data. Unit:
@@ -191,9 +191,9 @@ pub const COEFFICIENT_ROUNDING: f64 = 1e-12;
 
 // Sparse ranks.
 
-/// Required independent share of a kept row with respect to the previously kept rows, if there are
-/// enough such rows. Long chains have rows with an independent share of 1e-3. Unit: share of the
-/// row. Too small: kept rows are nearly dependent. Too large: rows of long chains are skipped.
+/// Required independent share of a kept row with respect to the previously kept rows, if enough
+/// rows have this share. Long chains have rows with an independent share of 1e-3. Unit: share of
+/// the row. Too small: kept rows are nearly dependent. Too large: rows of long chains are skipped.
 /// Test: `of_nearly_parallel_rows_one_is_kept`.
 pub(crate) const LEFT: f64 = 1e-4;
 

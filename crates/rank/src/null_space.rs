@@ -1,5 +1,5 @@
 //! The left null space of a constraint matrix, derived from a rank decision, and the groups of rows
-//! that it couples (components). The module `circuits` computes minimal dependent sets.
+//! that the null space couples (components). The module `circuits` computes minimal dependent sets.
 //!
 //! Columns z with `Cᵀ·z = 0` are the self-stresses: if multipliers change by a self-stress, the
 //! force on every body does not change. Other modules use the groups of rows for verdicts on joints
@@ -13,14 +13,15 @@ use linalg::{Matrix, PivotedQr, kernels};
 #[derive(Debug, Clone, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Components {
-    /// Sets of coupled rows: each list ascending, lists ordered by their first row.
+    /// Sets of coupled rows. Each list is ascending, and the lists are ordered by their first rows.
     pub coupled: Vec<Vec<usize>>,
-    /// Rows that belong to no dependency (coloops), ascending. Their multipliers are unique.
+    /// Rows that belong to no dependency (coloops), ascending. The multipliers of these rows are
+    /// unique.
     pub coloops: Vec<usize>,
 }
 
 /// Returns Z (m×p) with `Cᵀ·Z = 0`. Column j is `[−T_jᵀ; e_j]` in the order (K, D), permuted to row
-/// order. It states that `row dropped[j] = Σ T_ji · row kept[i]`.
+/// order. Column j states that `row dropped[j] = Σ T_ji · row kept[i]`.
 ///
 /// ```
 /// use linalg::Matrix;
@@ -37,9 +38,9 @@ pub fn dependencies(decision: &RankDecision) -> Matrix {
 /// Returns an orthonormal basis (m×p) of the left null space of the *equilibrated* rows
 /// `D_r·C·D_c`.
 ///
-/// The norm of row i is the margin of "row i is unique". It is zero iff the row belongs to no
-/// dependency, and one iff the row alone is dependent (a row of zeros). `D_r` times a column is a
-/// self-stress of C.
+/// The norm of row i is the margin of the statement "row i is unique". The margin is zero iff the
+/// row belongs to no dependency, and one iff the row alone is dependent (a row of zeros). `D_r`
+/// times a column is a self-stress of C.
 pub fn orthonormal(decision: &RankDecision) -> Matrix {
     let z = scatter(decision, &decision.equilibrated_dependence());
     let p = z.ncols();
@@ -71,8 +72,8 @@ pub fn components(decision: &RankDecision) -> Components {
     components_of(decision, &Support::new(decision))
 }
 
-/// Returns rows of components for which a stated tolerance leaves undecided whether a row belongs
-/// to a dependency, or to which one. The rows ascend; the list is empty without a tolerance.
+/// Returns rows of components for which a stated tolerance leaves undecided to which dependency, if
+/// any, a row belongs. The rows ascend; the list is empty without a tolerance.
 pub fn open_rows(decision: &RankDecision) -> Vec<usize> {
     if !decision.has_tolerance() {
         return Vec::new();
@@ -111,7 +112,7 @@ fn components_of(decision: &RankDecision, support: &Support) -> Components {
             let row_i = decision.kept[i];
             coloop[row_i] = false;
             let (a, b) = (root(&label, row_i), root(&label, row_j));
-            // The smaller row becomes the root, so that the root is the first row of a component.
+            // The smaller row becomes the root. Therefore the root is the first row of a component.
             label[a.max(b)] = a.min(b);
         }
     }
@@ -128,9 +129,9 @@ fn components_of(decision: &RankDecision, support: &Support) -> Components {
     }
 }
 
-/// Decides which equilibrated coefficients count as non-zero. A row belongs to no circuit if its
-/// margin, the norm of its row of [`orthonormal`], counts as zero: verdicts use the margin, and
-/// circuits must be consistent with them.
+/// Decides which equilibrated coefficients count as non-zero. The margin of a row is the norm of
+/// its row of [`orthonormal`]. A row belongs to no circuit if its margin counts as zero. Verdicts
+/// use the margin, and circuits must be consistent with the verdicts.
 pub(crate) struct Support {
     /// Coefficients T of the equilibrated rows.
     pub(crate) t: Matrix,
@@ -283,9 +284,9 @@ mod tests {
 
     #[test]
     fn a_row_that_is_unique_is_in_no_circuit() {
-        // Sixteen unit rows and their sum, in which the last has the coefficient x and fifteen have
-        // 1: the dependency has norm 4, so the margin is x/4. A coefficient of twice the noise is
-        // not rounding by itself, but its row is unique.
+        // Sixteen unit rows and their sum, in which the last row has the coefficient x and the
+        // other fifteen rows have the coefficient 1. The dependency has norm 4, so the margin is
+        // x/4. A coefficient of twice the noise is not rounding by itself, but its row is unique.
         let matrix = |x: f64| {
             Matrix::from_fn(17, 17, |i, j| match (i, j) {
                 (16, 15) => x,

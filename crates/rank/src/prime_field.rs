@@ -6,8 +6,8 @@
 //! matrices are mapped without error. The module `pfaff_rank::modular` chooses rows and minors.
 //!
 //! The primes have 62 bits and are drawn from a fixed pseudo-random stream. Primes of a special
-//! form are not suitable: modulo the convenient 2⁶¹ − 1 the determinant of [[1, 1], [1, 2⁶¹]]
-//! vanishes, and binary data contain many powers of two.
+//! form are not suitable. For example, modulo the convenient 2⁶¹ − 1 the determinant of [[1, 1],
+//! [1, 2⁶¹]] is zero, and binary data contain many powers of two.
 //!
 //! Source: P. L. Montgomery, Modular multiplication without trial division, Math. Comp. 44 (1985)
 //! 519–521; the bases of the primality test after J. Sorenson, J. Webster, Strong pseudoprimes to
@@ -26,8 +26,7 @@ pub(crate) struct PrimeField {
     r_squared: u64,
 }
 
-/// An element x of a field, stored as `x·2⁶⁴ mod p`, so that equal representations mean equal
-/// elements.
+/// An element x of a field, stored as `x·2⁶⁴ mod p`. Equal representations mean equal elements.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub(crate) struct Residue(u64);
 
@@ -40,7 +39,7 @@ impl Residue {
 }
 
 impl PrimeField {
-    /// Returns the field of the odd number `p < 2⁶²`; inverses exist if it is a prime.
+    /// Returns the field of the odd number `p < 2⁶²`. Inverses exist if `p` is a prime.
     fn new(p: u64) -> Self {
         // Newton's iteration doubles the number of correct bits, from 3 to 96.
         let mut inverse = p;
@@ -90,7 +89,8 @@ impl PrimeField {
         Residue(self.reduce(u128::from(x.0) * u128::from(y.0)))
     }
 
-    /// Returns x·y of a residue and an integer below 2⁶²; the result is an integer in `0..p`.
+    /// Returns x·y, where x is a residue and y is an integer below 2⁶²; the result is an integer in
+    /// `0..p`.
     pub(crate) fn times_plain(self, x: Residue, y: u64) -> u64 {
         self.reduce(u128::from(x.0) * u128::from(y))
     }
@@ -108,7 +108,7 @@ impl PrimeField {
         product
     }
 
-    /// Returns x⁻¹ by Fermat's theorem; zero for zero.
+    /// Returns x⁻¹ by Fermat's theorem, or zero if x is zero.
     pub(crate) fn inverse(self, x: Residue) -> Residue {
         self.power(x, self.p - 2)
     }
@@ -163,8 +163,8 @@ impl Iterator for Stream {
     }
 }
 
-/// Performs the Miller–Rabin test with the first twelve primes as bases: no composite below 3.1e23
-/// passes it.
+/// Performs the Miller–Rabin test with the first twelve primes as bases. No composite number below
+/// 3.1e23 passes this test.
 fn is_prime(n: u64) -> bool {
     const BASES: [u64; 12] = [2, 3, 5, 7, 11, 13, 17, 19, 23, 29, 31, 37];
     if BASES.iter().any(|b| n.is_multiple_of(*b)) {

@@ -1,11 +1,11 @@
 //! A row basis with bounded coefficients: `C_D = T·C_K` with `|T_ji| ≤ 2`.
 //!
-//! Column-pivoted QR picks a good set K of rows, but the coefficients that express the other rows
+//! Column-pivoted QR selects a good set K of rows, but the coefficients that express the other rows
 //! can still grow like 2^r. Exchanging a kept row i with a dropped row j multiplies the volume
-//! `√det(C_K·C_Kᵀ)` by `|T_ji|`, so the exchanges terminate if they are made only while an entry
-//! exceeds the bound. Only this part of the strong rank-revealing criterion is needed here. Its
-//! second term, `‖R₁₁⁻¹‖·‖R₂₂‖ ≤ σ_{r+1}/σ_r`, is at most 1e-3 for every decided rank and is
-//! omitted.
+//! `√det(C_K·C_Kᵀ)` by `|T_ji|`. Therefore the exchanges terminate if they are made only while an
+//! entry exceeds the bound. Only this part of the strong rank-revealing criterion is needed here.
+//! The second term of the criterion, `‖R₁₁⁻¹‖·‖R₂₂‖ ≤ σ_{r+1}/σ_r`, is at most 1e-3 for every
+//! decided rank and is omitted.
 //!
 //! The rank itself must already be decided.
 //!
@@ -55,7 +55,7 @@ impl Basis {
         }
     }
 
-    /// Sorts lists in any order, with T in the order of the lists.
+    /// Creates the basis from lists in any order. T must be in the order of the lists.
     pub(crate) fn sorted(kept: &[usize], dropped: &[usize], t: &Matrix, residual: f64) -> Self {
         let ascending = |rows: &[usize]| {
             let mut order: Vec<usize> = (0..rows.len()).collect();
@@ -87,8 +87,8 @@ pub(crate) fn bounded(c: &Matrix, mut rows: RowBasis) -> (Basis, RowBasis) {
     (basis, rows)
 }
 
-/// Exchanges rows until `|T_ji| ≤ 2`. T is updated, not recomputed, and the lists are then not
-/// ascending.
+/// Exchanges rows until `|T_ji| ≤ 2`. T is updated instead of recomputed, and the resulting lists
+/// are not ascending.
 pub(crate) fn exchange_all(t: &mut Matrix, kept: &mut [usize], dropped: &mut [usize]) {
     let exchanges_max = 10 * (kept.len() + dropped.len());
     for _ in 0..exchanges_max {
@@ -101,7 +101,7 @@ pub(crate) fn exchange_all(t: &mut Matrix, kept: &mut [usize], dropped: &mut [us
 }
 
 /// Computes the coefficients of the row y in terms of the factored rows, and the norm of the
-/// component of y outside their span; y is overwritten.
+/// component of y outside the span of the factored rows; y is overwritten.
 pub(crate) fn coefficients(qr: &PivotedQr, y: &mut [f64], t: &mut [f64]) -> f64 {
     qr.q_transpose_mul(y);
     let (x, outside) = y.split_at_mut(t.len());
@@ -131,8 +131,8 @@ fn largest_above_bound(t: &Matrix) -> Option<(usize, usize)> {
     at
 }
 
-/// Updates T after kept row i and dropped row j have been exchanged: one Gauss–Jordan step with
-/// pivot T_ji.
+/// Updates T after kept row i and dropped row j have been exchanged. The update is one Gauss–Jordan
+/// step with pivot T_ji.
 fn exchange(t: &mut Matrix, j: usize, i: usize) {
     let pivot = t[(j, i)];
     let mut row_j: Vec<f64> = t.row(j).iter().map(|a| -a / pivot).collect();

@@ -1,22 +1,22 @@
 //! Facts that follow from the pattern of a constraint matrix, without a rank decision on the whole
-//! matrix: rows that belong to no dependency because of the bodies on which they act, and parts
-//! that are independent of each other.
+//! matrix. Some rows belong to no dependency because of the bodies on which they act, and some
+//! parts are independent of each other.
 //!
-//! Columns form blocks (bodies), rows form groups (joints). Three facts are used. A row that one of
-//! these rules decides needs no further analysis, and all other rows need numerical values.
+//! Columns form blocks (bodies), and rows form groups (joints). Three facts are used. A row that is
+//! decided by one of these facts needs no further analysis. All other rows need numerical values.
 //!
 //! - **Parts.** Groups that share no block, directly or through other groups, are independent
 //!   problems. The ground is not a block.
 //! - **Peeling.** `Cᵀ·z = 0` on the columns of one block involves only the rows that touch it. If
-//!   these rows, restricted to the block, are independent, then z vanishes on all of them, and they
-//!   are removed together with the block.
+//!   these rows, restricted to the block, are independent, then z vanishes on all of these rows,
+//!   and the rows are removed together with the block.
 //! - **Bridges.** If a group X is the only connection of a set S of blocks to the rest of the graph
 //!   of blocks and ground, then `C_Xᵀ·z_X = 0`, because S is in equilibrium. This conclusion uses
 //!   mechanics, see [`RowGroup::ground`].
 //!
-//! The ranks in this module are those of a few rows of the equilibrated matrix, by the rule of
-//! `rank`. Uncertain results stay open. Names of joints, and verdicts from ranks, are not used
-//! here.
+//! The ranks in this module are ranks of a few rows of the equilibrated matrix, by the rule of
+//! `rank`. Uncertain results stay open. This module does not use names of joints or verdicts from
+//! ranks.
 
 mod cycles;
 mod graph;
@@ -54,16 +54,16 @@ pub enum StructureVerdict {
 #[derive(Debug, Clone, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Structure {
-    /// For each group, the reason why it is settled, or its part. A group is peeled if all its rows
-    /// are peeled.
+    /// For each group, the reason why the group is settled, or its part. A group is peeled if all
+    /// its rows are peeled.
     pub groups: Vec<StructureVerdict>,
-    /// The corresponding result for each row. A row outside all groups forms a group by itself,
+    /// The same result for each row. A row outside all groups forms a group by itself, which is
     /// connected to the ground.
     pub rows: Vec<StructureVerdict>,
     /// Parts of the whole matrix, ordered by their first rows.
     pub parts: Vec<Part>,
-    /// Parts of the open rows, ordered by their first rows. Each can be analysed separately, on its
-    /// rows and the columns of its blocks.
+    /// Parts of the open rows, ordered by their first rows. Each part can be analysed separately,
+    /// on its rows and the columns of its blocks.
     pub open: Vec<Part>,
 }
 
@@ -73,8 +73,8 @@ pub struct Structure {
 /// A row touches a block if it has a non-zero entry in it. Peeling and the search for bridges
 /// alternate until neither finds more. Each pass is linear in the entries of C, and there are at
 /// most as many passes as blocks. A group on more than two blocks, or on two blocks and the ground
-/// (a gear with its carrier), connects all of them and is never a bridge. The load that it
-/// transmits to one side may vanish while the other loads do not.
+/// (a gear with its carrier), connects all these blocks and is never a bridge. The load that such a
+/// group transmits to one side may vanish while the other loads do not.
 ///
 /// ```
 /// use linalg::Matrix;
@@ -93,7 +93,7 @@ pub struct Structure {
 /// ```
 ///
 /// Rows and columns beyond the matrix are omitted. A row in several groups, or a column in several
-/// blocks, counts for the first one.
+/// blocks, counts for the first group or block.
 ///
 /// # Errors
 /// - [`RankError::NonFinite`]: an entry is NaN or infinite.

@@ -1,5 +1,5 @@
-//! Computes the combination of rows that is closest to zero. It shows which rows are nearly
-//! dependent, and by how much.
+//! Computes the combination of rows that is closest to zero. The combination shows which rows are
+//! nearly dependent, and by how much.
 
 use crate::limits::{DIRECTION_ROUNDING, INVERSE_ITERATIONS};
 use linalg::{Matrix, PivotedQr, kernels};
@@ -31,7 +31,7 @@ pub fn weakest_combination(rows: &Matrix) -> Option<WeakestCombination> {
     by_inverse_iteration(rows).or_else(|| by_inverse_iteration(&beside_rounding(rows)))
 }
 
-/// Appends δ·I, where δ is the rounding, to the rows: `[C, δ·I]`.
+/// Appends δ·I to the rows: `[C, δ·I]`. δ is the rounding of the rows.
 fn beside_rounding(rows: &Matrix) -> Matrix {
     let (r, n) = (rows.nrows(), rows.ncols());
     let largest = (0..r).map(|i| kernels::norm(rows.row(i)));

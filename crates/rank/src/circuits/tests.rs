@@ -5,7 +5,7 @@ use super::*;
 use crate::decide;
 use linalg::Matrix;
 
-/// Rank by fraction-free elimination in integers.
+/// Returns the rank, by fraction-free elimination in integers.
 fn exact_rank(rows: &[Vec<i128>]) -> usize {
     let mut a = rows.to_vec();
     let n = a.first().map_or(0, Vec::len);
@@ -26,7 +26,7 @@ fn exact_rank(rows: &[Vec<i128>]) -> usize {
     rank
 }
 
-/// All minimal dependent sets of rows, by trying every set.
+/// Returns all minimal dependent sets of rows. Every set is tested.
 fn all_circuits(rows: &[Vec<i128>]) -> Vec<Vec<usize>> {
     let rank_of =
         |set: &[usize]| exact_rank(&set.iter().map(|&i| rows[i].clone()).collect::<Vec<_>>());
@@ -42,7 +42,8 @@ fn all_circuits(rows: &[Vec<i128>]) -> Vec<Vec<usize>> {
     circuits
 }
 
-/// Small integers from a seed; a few rows repeat, vanish, or are sums of others, as in mechanisms.
+/// Returns small integers from a seed. A few rows repeat, vanish, or are sums of other rows, as in
+/// mechanisms.
 fn integer_rows(seed: u64, m: usize, n: usize) -> Vec<Vec<i128>> {
     let mut state = seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) | 1;
     let mut next = |below: u64| {
@@ -88,8 +89,8 @@ fn short_circuits_are_the_shortest_basis_of_all_circuits() {
         redundancies[decision.redundancy] += 1;
         let exact = all_circuits(&rows);
         let found = short_circuits(&decision);
-        // Each one is a circuit, its coefficients cancel its rows, and together they span the
-        // dependencies.
+        // Each vector is a circuit, and its coefficients cancel its rows. All vectors together span
+        // the dependencies.
         let z = Matrix::from_fn(found.len(), c.nrows(), |k, i| {
             let at = found[k].rows.iter().position(|&row| row == i);
             at.map_or(0.0, |at| found[k].coefficients[at])
@@ -123,8 +124,8 @@ fn short_circuits_are_the_shortest_basis_of_all_circuits() {
     );
 }
 
-/// Total length of a shortest basis of circuits. A circuit's vector comes from cofactors, so it is
-/// exact.
+/// Returns the total length of a shortest basis of circuits. The vector of a circuit is computed
+/// from cofactors, so it is exact.
 fn shortest_total(rows: &[Vec<i128>], circuits: &[Vec<usize>], p: usize) -> usize {
     let mut basis: Vec<Vec<i128>> = Vec::new();
     let mut total = 0;
@@ -140,7 +141,8 @@ fn shortest_total(rows: &[Vec<i128>], circuits: &[Vec<usize>], p: usize) -> usiz
     total
 }
 
-/// The dependency of a circuit in integers, from elimination of the rows with an identity appended.
+/// Returns the dependency of a circuit in integers, from elimination of the rows with an identity
+/// matrix appended.
 fn exact_dependency(rows: &[Vec<i128>], circuit: &[usize]) -> Vec<i128> {
     let (n, k) = (rows[0].len(), circuit.len());
     let mut a: Vec<Vec<i128>> = (0..k)
@@ -188,12 +190,12 @@ fn a_component_with_too_many_circuits_falls_back() {
     assert_eq!(decision.redundancy, 15);
     let found = short_circuits(&decision);
     assert_eq!(found.len(), 15);
-    // Any 15 rows of a generic matrix are independent, any 16 are a circuit.
+    // Any 15 rows of a generic matrix are independent, and any 16 rows are a circuit.
     assert!(found.iter().all(|c| c.rows.len() == 16));
 }
 
-/// Two vectors that differ by 1e-3 determine the plane that they span; two that differ by 1e-5 do
-/// not.
+/// Two vectors that differ by 1e-3 determine the plane that they span. Two vectors that differ by
+/// 1e-5 do not determine it.
 #[test]
 fn vectors_have_to_span_what_a_circuit_vanishes_on() {
     let rows = [[1.0, 0.0], [0.0, 1.0], [1.0, 1.0], [1.0, 2.0], [2.0, 1.0]];

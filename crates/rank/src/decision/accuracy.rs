@@ -21,10 +21,10 @@ use linalg::{Matrix, Scaling, equilibrate};
 /// ```
 #[derive(Clone, Copy, Debug)]
 pub enum Accuracy<'a> {
-    /// The entries are accurate to their last digits: each entry is as significant as any other,
-    /// and computations with them have rounding errors.
+    /// The entries are accurate to their last digits. Each entry is as significant as any other,
+    /// and computations with the entries have rounding errors.
     Rounding,
-    /// The entries are exact rational numbers, and no rounding occurs: the rank is that of
+    /// The entries are exact rational numbers, and no rounding occurs. The rank is the rank of
     /// [`certify_exact`](crate::certify_exact). If the rank or the rows are given, this variant is
     /// equivalent to [`Accuracy::Rounding`].
     Exact,
@@ -41,12 +41,12 @@ impl<'a> From<&'a Matrix> for Accuracy<'a> {
     }
 }
 
-/// Bounds on the distance of an equilibrated matrix from the intended one.
+/// Bounds on the distance between an equilibrated matrix and the intended matrix.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Spread {
     /// Largest uncertainty of one entry.
     pub(crate) largest: f64,
-    /// Frobenius norm of the uncertainty: no singular value has a larger error.
+    /// Frobenius norm of the uncertainty. No singular value has a larger error.
     pub(crate) norm: f64,
 }
 
@@ -55,8 +55,8 @@ impl Accuracy<'_> {
     /// are not scaled up to norm one.
     ///
     /// # Errors
-    /// Returns an error if the uncertainty has another shape than `c`, or is negative or not
-    /// finite.
+    /// Returns an error if the shape of the uncertainty is not the shape of `c`, or if the
+    /// uncertainty is negative or not finite.
     pub fn equilibration(self, c: &Matrix) -> Result<Scaling, RankError> {
         let Self::Entries(u) = self else {
             return Ok(equilibrate(c));

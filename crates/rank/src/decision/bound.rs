@@ -1,8 +1,8 @@
 //! A lower bound on the smallest singular value, proved in floating point.
 //!
-//! With an approximate right inverse X of A (r×n) and `E = I − A·X`, `‖E‖ < 1` gives
-//! `σ_r(A) ≥ (1 − ‖E‖)/‖X‖`. X may be any matrix; only E needs a bound, and the error of a product
-//! in floating point is at most `γ_n·|A|·|X|`.
+//! Let X be an approximate right inverse of A (r×n), and `E = I − A·X`. If `‖E‖ < 1`, then `σ_r(A)
+//! ≥ (1 − ‖E‖)/‖X‖`. X may be any matrix; only E needs a bound, and the error of a product in
+//! floating point is at most `γ_n·|A|·|X|`.
 //!
 //! Source: N. J. Higham, Accuracy and Stability of Numerical Algorithms, 2nd ed. (2002), section
 //! 3.1 for γ_n.
@@ -10,9 +10,9 @@
 use crate::limits::BOUND_SLACK;
 use linalg::{Matrix, kernels};
 
-/// Returns a lower bound on σ_r of every matrix within `perturbation` (Frobenius norm) of the r×n
-/// matrix `a`. The right inverse X is given by its r columns. The bound is 0 if no bound follows
-/// from X.
+/// Returns a lower bound on σ_r of every matrix whose distance from the r×n matrix `a` is at most
+/// `perturbation` (Frobenius norm). The right inverse X is given by its r columns. The bound is 0
+/// if X does not give a bound.
 pub(super) fn smallest_singular_value(a: &Matrix, x: &Matrix, perturbation: f64) -> f64 {
     let (r, n) = (a.nrows(), a.ncols());
     if r == 0 {
@@ -82,8 +82,8 @@ mod tests {
             smallest_singular_value(&Matrix::from_rows(&[[1.0], [1.0]]), 0.0),
             0.0
         );
-        // The rows contain 1/3: they differ from dependent rows only in the last bit, so f64 cannot
-        // prove that they are independent.
+        // The rows contain 1/3. The rows differ from dependent rows only in the last bit, so f64
+        // cannot prove that they are independent.
         let a = Matrix::from_rows(&[[1.0, 1.0 / 3.0], [3.0, 1.0]]);
         assert_eq!(smallest_singular_value(&a, 0.0), 0.0);
     }

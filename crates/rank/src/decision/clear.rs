@@ -1,6 +1,6 @@
-//! Decides whether values are certainly zero or certainly nonzero. The rule of rank decisions, with
-//! a clear gap between the two cases, is applied to single values, and to a few rows of a matrix
-//! that has already been equilibrated.
+//! Decides whether values are certainly zero or certainly nonzero. The rule of rank decisions
+//! requires a clear gap between the two cases. This module applies the rule to single values, and
+//! to a few rows of a matrix that has already been equilibrated.
 
 use super::{required, tolerance};
 use crate::limits::{CLEARANCE, NOISE_MAX};
@@ -11,7 +11,7 @@ use linalg::{Matrix, singular_values};
 pub(crate) enum Size {
     /// The value is at most the noise, and the noise is at most 1e-4.
     Zero,
-    /// The value is between the two limits: undecided.
+    /// The value is between the two limits, so the result is undecided.
     Unclear,
     /// The value exceeds the noise by the clearance of rank decisions, 10³.
     NonZero,
@@ -26,8 +26,8 @@ pub(crate) fn size(x: f64, noise: f64) -> Size {
 }
 
 /// Returns whether rows of an equilibrated matrix are certainly independent: `σ_min ≥ max(10³·τ,
-/// 10⁻⁷)`. The rows are not equilibrated again, because that would enlarge entries that are only
-/// rounding relative to the rest of their row or column.
+/// 10⁻⁷)`. The rows are not equilibrated again. A second equilibration would enlarge entries that
+/// are only rounding relative to the rest of their row or column.
 pub(crate) fn independent(rows: &Matrix, uncertainty: f64) -> bool {
     let tolerance = tolerance(rows.nrows(), rows.ncols(), uncertainty);
     rows.nrows() <= rows.ncols()

@@ -1,5 +1,5 @@
 //! Decides whether a coefficient of the dependencies is zero. The tolerance for T, Z and values
-//! derived from them follows from the evidence of the rank.
+//! derived from T and Z follows from the evidence of the rank.
 
 use super::Grounds;
 use super::outcome::RankDecision;
@@ -12,13 +12,13 @@ use crate::limits::{
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub enum CoefficientReading {
-    /// Certainly zero.
+    /// The coefficient is certainly zero.
     Zero,
-    /// Certainly not zero.
+    /// The coefficient is certainly not zero.
     NonZero,
-    /// The evidence does not decide.
+    /// The evidence does not decide whether the coefficient is zero.
     Unclear {
-        /// Largest size that rounding and uncertainty explain.
+        /// Largest size that rounding and uncertainty can cause.
         tolerance: f64,
         /// Smallest size that is certainly not zero.
         required: f64,
@@ -56,7 +56,7 @@ impl RankDecision {
         certificate.is_some_and(|c| c.has_tolerance)
     }
 
-    /// Returns whether rows are redundant only within a stated tolerance: other data within this
+    /// Returns whether rows are redundant only within a stated tolerance. Other data within this
     /// tolerance have a higher rank.
     #[must_use]
     pub fn is_within_tolerance(&self) -> bool {
@@ -65,7 +65,7 @@ impl RankDecision {
     }
 
     /// Returns whether the entries of the matrix are exact, so that zeros of T are exact as well.
-    /// The entries are not exact if the rank is that of other data within the accuracy of the given
+    /// The entries are not exact if the rank belongs to other data within the accuracy of the given
     /// data.
     #[must_use]
     pub fn is_exact(&self) -> bool {
@@ -77,8 +77,8 @@ impl RankDecision {
     /// for a certified rank of a matrix with uncertainty s (Frobenius norm).
     ///
     /// For exact entries the noise consists only of rounding errors. For a nearly redundant matrix
-    /// it is the error for the stored matrix, `10·‖C_D − T·C_K‖/σ_r`; the effect of the uncertainty
-    /// of the data is reported by [`RankDecision::nearly_redundant`] instead.
+    /// the noise is the error for the stored matrix, `10·‖C_D − T·C_K‖/σ_r`. In this case,
+    /// [`RankDecision::nearly_redundant`] contains the effect of the uncertainty of the data.
     #[must_use]
     pub fn coefficient_tolerance(&self) -> f64 {
         let e = &self.evidence;
@@ -91,7 +91,7 @@ impl RankDecision {
             Some(_) if e.sigma_r < AS_READ => {
                 rounding.max(SOLVE_FACTOR * e.dependence_residual / e.sigma_r)
             }
-            // T is accurate to double-double; the remaining error comes from the data: so ‖δT‖ ≤
+            // T is accurate to double-double. The remaining error comes from the data, so ‖δT‖ ≤
             // ‖δC‖·‖[T, I]‖/σ_r. If the rank is valid only for data within their uncertainty,
             // σ_{r+1} remains as a residual.
             Some(certificate) => {
@@ -104,11 +104,11 @@ impl RankDecision {
         }
     }
 
-    /// Returns a bound on the error (norm) of row i of `[−T̃, I]`. It is the sum of three parts:
-    /// the uncertainty of the entries on which the row depends, the residual `10·‖C_D − T·C_K‖/σ_r`
-    /// of dependencies that exist only within the data, and rounding. If the effect of the data is
-    /// known and larger, it is returned instead. The bound is at most about
-    /// [`RankDecision::coefficient_tolerance`], and much smaller in a matrix of mixed sizes.
+    /// Returns a bound on the error (norm) of row i of `[−T̃, I]`. The bound is the sum of three
+    /// parts: the uncertainty of the entries on which the row depends, the residual `10·‖C_D −
+    /// T·C_K‖/σ_r` of dependencies that exist only within the data, and rounding. If the effect of
+    /// the data is known and larger, the function returns this effect instead. The bound is at most
+    /// about [`RankDecision::coefficient_tolerance`], and much smaller in a matrix of mixed sizes.
     #[must_use]
     pub fn row_noise(&self, i: usize) -> f64 {
         let tolerance = self.coefficient_tolerance();
@@ -127,7 +127,8 @@ impl RankDecision {
     }
 
     /// Returns the part of [`RankDecision::row_noise`] that does not come from a stated tolerance.
-    /// A smaller row is zero for all data; a larger row is zero only within the tolerance.
+    /// A row below this part is zero for all data. A row above it is zero only within the
+    /// tolerance.
     #[must_use]
     pub fn row_rounding(&self, i: usize) -> f64 {
         let certificate = self.evidence.certificate.as_ref();
@@ -135,7 +136,7 @@ impl RankDecision {
         POSE_FACTOR * NOISE_FACTOR * (f64::EPSILON + noise.copied().unwrap_or(0.0))
     }
 
-    /// Classifies the size of a coefficient, or of a norm of several, given its noise.
+    /// Classifies the size of a coefficient, or the norm of several coefficients, given its noise.
     #[must_use]
     pub fn read_coefficient(&self, size: f64, noise: f64) -> CoefficientReading {
         self.readings().read(size, noise)
@@ -168,13 +169,13 @@ pub struct Readings {
     pub(crate) is_certified: bool,
     /// Whether the noise includes a stated tolerance of any size.
     pub(crate) has_tolerance: bool,
-    /// The smallest coefficient that is not zero, if the noise is estimated from it; otherwise
-    /// infinite.
+    /// The smallest coefficient that is not zero, if the noise is estimated from this coefficient;
+    /// otherwise infinite.
     pub(crate) smallest: f64,
 }
 
 impl Readings {
-    /// Classifies the size of a coefficient, or of a norm of several, given its noise.
+    /// Classifies the size of a coefficient, or the norm of several coefficients, given its noise.
     #[must_use]
     pub fn read(&self, size: f64, noise: f64) -> CoefficientReading {
         if self.has_tolerance {
@@ -210,7 +211,7 @@ impl Readings {
 mod tests {
     use super::*;
 
-    /// A tenth of a reaction does not count as zero only because data within the tolerance could
+    /// A coefficient of a tenth does not count as zero only because data within the tolerance could
     /// make it zero.
     #[test]
     fn within_a_tolerance_only_what_is_small_is_zero() {

@@ -1,10 +1,10 @@
-//! The standard decision: the rank, the rows to keep, and the other rows in terms of them.
+//! The standard decision: the rank, the rows to keep, and the other rows in terms of the kept rows.
 
 use super::exact::certify_exact;
 use super::{Accuracy, RankDecision, RankError, read};
 use linalg::Matrix;
 
-/// Decides the rank of C, chooses the rows to keep, and expresses the other rows in terms of them.
+/// Decides the rank of C, chooses the rows to keep, and expresses the other rows by the kept rows.
 ///
 /// | argument | shape | meaning |
 /// | --- | --- | --- |
@@ -28,8 +28,8 @@ use linalg::Matrix;
 /// - [`RankError::Uncertainty`], [`RankError::UncertaintyShape`]: the uncertainty is negative, NaN,
 ///   infinite or of another shape.
 ///
-/// Source: rank rule and scaling as in the module docs; rows by pivoted QR of `(D_r·C·D_c)ᵀ` and
-/// strong exchanges (Gu and Eisenstat 1996).
+/// Source: the module docs describe the rank rule and the scaling. The rows are chosen by pivoted
+/// QR of `(D_r·C·D_c)ᵀ` and strong exchanges (Gu and Eisenstat 1996).
 pub fn decide<'a>(
     c: &Matrix,
     accuracy: impl Into<Accuracy<'a>>,

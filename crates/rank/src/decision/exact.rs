@@ -16,9 +16,9 @@ use linalg::{Dd, DdMatrix, Matrix, equilibrate, kernels};
 /// A minor that is not zero modulo a prime proves that the rank is at least r. If all larger minors
 /// are zero modulo primes whose product exceeds Hadamard's bound, the rank is not larger. The
 /// dependencies T are rounded from their exact values, so their zeros are exact. The time grows
-/// with the number of digits of the minors: a redundant 22×21 matrix takes less than a millisecond,
-/// a 200×200 one seconds. Use [`certify_within`](crate::certify_within) for entries that come from
-/// measured or rounded data.
+/// with the number of digits of the minors. A redundant 22×21 matrix takes less than a millisecond,
+/// and a 200×200 matrix takes seconds. Use [`certify_within`](crate::certify_within) for entries
+/// that come from measured or rounded data.
 ///
 /// ```
 /// use linalg::Matrix;
@@ -43,7 +43,7 @@ pub fn certify_exact(c: &Matrix) -> Result<RankDecision, RankError> {
     let (m, n) = (c.nrows(), c.ncols());
     let scaling = equilibrate(c);
     let scaled = scaling.apply(c);
-    // Below this limit, the singular values are noise of double-double. In this range, only the
+    // Below this limit, the singular values are noise of double-double. Below it, only the
     // arithmetic modulo primes decides, and a proposal is not needed.
     let floor = 16.0 * (m.max(1) as f64) * (n.max(1) as f64) * Dd::EPSILON;
     let graded = RowLevels::new(&DdMatrix::from(&scaled), floor);
@@ -101,7 +101,7 @@ pub fn certify_exact(c: &Matrix) -> Result<RankDecision, RankError> {
         status: RankStatus::Decided,
     };
     let nearly_redundant = (sigma_r < NEARLY_REDUNDANT).then(|| {
-        // Rows whose independence is visible only modulo primes.
+        // Rows whose independence is detected only modulo primes.
         let hidden = graded.left.iter().position(|i| decision.kept.contains(i));
         let direction = match hidden {
             Some(j) => graded.left_direction(j),

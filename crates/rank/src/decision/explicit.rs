@@ -44,7 +44,7 @@ pub enum KeptRowsError {
         row: usize,
     },
     /// The rows that are not dropped depend on each other, so at least one of the dropped rows is
-    /// needed.
+    /// required.
     #[error(
         "the kept rows are dependent: smallest singular value {smallest_singular_value:.3e}, need \
          {required:.3e}; a row in no dependency must not be dropped"
@@ -86,11 +86,11 @@ pub fn decide_dropping<'a>(
     decide_partition(c, uncertainty.into(), complement(c.nrows(), &dropped), None)
 }
 
-/// Works like [`decide_dropping`], with a given rank: data within a stated tolerance may have a
+/// Works like [`decide_dropping`], with a given rank. Data within a stated tolerance may have a
 /// lower rank than the matrix. The dropped rows then depend on the kept rows only approximately.
 ///
 /// # Errors
-/// Same errors as [`decide_dropping`].
+/// Returns the same errors as [`decide_dropping`].
 pub fn dropping_of_rank<'a>(
     c: &Matrix,
     uncertainty: impl Into<Accuracy<'a>>,
@@ -116,7 +116,7 @@ pub fn dropping_of_rank<'a>(
 /// ```
 ///
 /// # Errors
-/// Same errors as [`decide_dropping`], with the rank of the decision.
+/// Returns the same errors as [`decide_dropping`], with the rank of the decision.
 pub fn with_dropped(
     decision: &RankDecision,
     c: &Matrix,
@@ -137,7 +137,7 @@ pub fn with_dropped(
 /// guaranteed.
 ///
 /// # Errors
-/// Same errors as [`decide_dropping`].
+/// Returns the same errors as [`decide_dropping`].
 pub fn decide_keeping<'a>(
     c: &Matrix,
     uncertainty: impl Into<Accuracy<'a>>,
@@ -192,7 +192,8 @@ fn on_rows(
     Ok(reading.with_basis(scaling, basis))
 }
 
-/// Returns the list in ascending order, after a check for rows that are repeated or out of range.
+/// Returns the list in ascending order. The function first checks that no row is repeated or out of
+/// range.
 fn ascending(rows: &[usize], m: usize) -> Result<Vec<usize>, KeptRowsError> {
     let mut sorted = rows.to_vec();
     sorted.sort_unstable();

@@ -1,11 +1,11 @@
 //! Chooses rows level by level, from large singular values to small ones, with double-double
 //! residuals.
 //!
-//! On each level, the usual decision expresses the rows with singular values within 1e-6 of the
-//! largest. The component of the other rows outside their span, `S_D = C_D − T·C_K` in
-//! double-double, is the matrix of the next level. In this way, singular values from 1 down to
-//! 1e-28 are each computed from a well-conditioned problem in `f64`. The levels end when S is below
-//! a floor that the caller chooses.
+//! On each level, the usual decision expresses the rows whose singular values are within 1e-6 of
+//! the largest singular value. The matrix of the next level is the component of the other rows
+//! outside the span of these rows, `S_D = C_D − T·C_K` in double-double. In this way, singular
+//! values from 1 down to 1e-28 are each computed from a well-conditioned problem in `f64`. The
+//! levels end when S is below a floor that the caller chooses.
 
 use super::bound;
 use super::spectrum::Spectrum;
@@ -17,14 +17,14 @@ use linalg::{Dd, DdMatrix, Matrix, PivotedQr, RowBasis, kernels, powers, singula
 struct Level {
     /// Independent rows, as indices into the whole matrix.
     kept: Vec<usize>,
-    /// S of these rows times 2^exponent (norm about one), and its factors.
+    /// S of these rows times 2^exponent (norm about one), and the factors of this matrix.
     rows: Matrix,
     factored: PivotedQr,
     exponent: i32,
-    /// `(A⁺)ᵀ` of the rows A of all levels up to this one, each of size one.
+    /// The matrix `(A⁺)ᵀ`. A contains the rows of all levels up to this level, each of size one.
     inverse: Matrix,
     /// Coefficients in S of all rows that remained when the level began, and the indices of these
-    /// rows: row `left[j]` of C is `coefficients_j·C_before` + `S_j`.
+    /// rows. Row `left[j]` of C is `coefficients_j·C_before` + `S_j`.
     coefficients: DdMatrix,
     before: Vec<usize>,
     /// Singular values of the equilibrated C that belong to the level.
@@ -56,15 +56,15 @@ impl RowLevels {
         Self::up_to(c, floor, c.ncols(), None)
     }
 
-    /// Removes levels until `rank` rows are kept, even if they are very small; fewer if no non-zero
-    /// row remains. `read` is the matrix in `f64` from which the rank was decided, or a nearby
-    /// matrix.
+    /// Removes levels until `rank` rows are kept, even if these rows are very small. Fewer rows are
+    /// kept if no non-zero row remains. `read` is the matrix in `f64` from which the rank was
+    /// decided, or a nearby matrix.
     pub(super) fn of_rank(c: &DdMatrix, rank: usize, read: &Spectrum) -> Self {
         let first = read.of_neighbour(&c.hi());
         Self::up_to(c, 0.0, rank.min(c.ncols()), first)
     }
 
-    /// The singular values of `c` are computed unless they are known.
+    /// Computes the levels. The singular values of `c` are computed unless they are known.
     fn up_to(c: &DdMatrix, floor: f64, most: usize, mut known: Option<&[f64]>) -> Self {
         let m = c.nrows();
         let mut g = Self {
@@ -118,8 +118,8 @@ impl RowLevels {
         }
     }
 
-    /// Returns the singular values of C that belong to the remainder: those of S in an orthonormal
-    /// basis of the combinations `[−T, I]` that produced it.
+    /// Returns the singular values of C that belong to the remainder. These values are the singular
+    /// values of S in an orthonormal basis of the combinations `[−T, I]` that produced S.
     fn readings(&self, exponent: i32) -> Vec<f64> {
         let mut s = self.outside.times_power(exponent).hi();
         let count = s.nrows().min(s.ncols().saturating_sub(self.kept.len()));
@@ -147,7 +147,7 @@ impl RowLevels {
             .collect()
     }
 
-    /// Estimates of all `count` singular values, largest first.
+    /// Returns estimates of all `count` singular values, largest first.
     pub(super) fn singular_values(&self, count: usize) -> Vec<f64> {
         let levels = self.levels.iter().flat_map(|l| &l.sigma);
         let mut sigma: Vec<f64> = levels.chain(&self.left_sigma).copied().collect();
@@ -169,7 +169,7 @@ impl RowLevels {
             .fold(0.0, f64::max)
     }
 
-    /// Returns the rows of all levels so far and of one more, each of norm one.
+    /// Returns the rows of all levels so far and of one further level, each of norm one.
     fn stacked(&self, levels: usize, last: &Matrix) -> Matrix {
         let before = self.levels[..levels].iter().map(|level| &level.rows);
         let all: Vec<&Matrix> = before.chain([last]).collect();
@@ -180,7 +180,8 @@ impl RowLevels {
         Matrix::from_fn(rows.len(), last.ncols(), |i, j| rows[i][j])
     }
 
-    /// Returns `(A⁺)ᵀ` of the rows A of all levels so far and of one more, which has been factored.
+    /// Returns `(A⁺)ᵀ`. A contains the rows of all levels so far and of one further, factored
+    /// level.
     fn inverse_with(&self, rows: &Matrix, factored: &PivotedQr) -> Matrix {
         match self.levels.len() {
             0 => factored.transposed_pseudo_inverse(),
@@ -204,8 +205,8 @@ impl RowLevels {
         Some(inverse)
     }
 
-    /// Returns for each level the number r of rows kept up to this level, and a proved lower bound
-    /// on σ_r of C.
+    /// Returns two values for each level: the number r of rows kept up to this level, and a proved
+    /// lower bound on σ_r of C.
     pub(super) fn bounds(&self) -> Vec<(usize, f64)> {
         let (mut count, mut perturbation, mut smallest) = (0, 0.0_f64, f64::INFINITY);
         let mut found = Vec::new();
@@ -222,9 +223,9 @@ impl RowLevels {
         found
     }
 
-    /// Returns unit weights of the rows of C (length m) whose combination has about the norm of the
-    /// smallest σ of the smallest level. This is a left singular vector except for a component in
-    /// the left null space, which the caller removes.
+    /// Returns unit weights of the rows of C (length m). The norm of the combination with these
+    /// weights is about the smallest σ of the smallest level. The weights are a left singular
+    /// vector except for a component in the left null space, which the caller removes.
     pub(super) fn smallest_direction(&self) -> Option<Vec<f64>> {
         let level = self.levels.last()?;
         // Two inverse iterations with S·Sᵀ = P·Rᵀ·R·Pᵀ; practically any initial vector has a
@@ -249,8 +250,8 @@ impl RowLevels {
         Some(direction)
     }
 
-    /// Returns the weights of the rows of C whose combination is the component of row `left[j]`
-    /// outside the span of the kept rows.
+    /// Returns weights of the rows of C. The combination with these weights is the component of row
+    /// `left[j]` outside the span of the kept rows.
     pub(super) fn left_direction(&self, j: usize) -> Vec<f64> {
         let mut direction = vec![0.0; self.kept.len() + self.left.len()];
         direction[self.left[j]] = 1.0;
@@ -261,7 +262,7 @@ impl RowLevels {
     }
 }
 
-/// One level: the dependent rows of a matrix scaled to unit size, expressed in its independent
+/// One level: the dependent rows of a matrix scaled to unit size, expressed by its independent
 /// rows.
 struct LevelReduction {
     kept: Vec<usize>,

@@ -3,10 +3,10 @@
 //!
 //! The matrix is scaled by powers of two to integers A (exact). For a row basis K with pivot
 //! columns J, the dropped rows are `A_D = T·A_K`. Each coefficient is a quotient of minors of order
-//! r: `T_ji = N_ji/det A_KJ`. Minors are computed modulo each prime. Primes whose product exceeds
-//! twice Hadamard's bound determine the minors completely, and the quotients follow to full
-//! precision. If all minors of order r + 1 are zero modulo the same primes, this proves that they
-//! are zero. The module `graded` determines the order of preference of the rows.
+//! r: `T_ji = N_ji/det A_KJ`. Minors are computed modulo each prime. If the product of the primes
+//! exceeds twice Hadamard's bound, the residues determine the minors completely, and the quotients
+//! are known to full precision. If all minors of order r + 1 are zero modulo the same primes, this
+//! proves that they are zero. The module `graded` determines the order in which rows are preferred.
 //!
 //! Source: mixed radix digits after H. L. Garner, The residue number system, IRE Trans. Electron.
 //! Comput. EC-8 (1959) 140–147.
@@ -66,7 +66,7 @@ impl Integers {
         }
     }
 
-    /// Bits of any minor of order at most `order`: Hadamard's bound.
+    /// Returns an upper bound of the bits of any minor of order at most `order`: Hadamard's bound.
     fn minor_bits(&self, order: usize) -> u64 {
         let mut bits = self.bits.clone();
         bits.sort_unstable_by(|a, b| b.cmp(a));
@@ -91,7 +91,7 @@ impl Integers {
     }
 }
 
-/// Returns `x = mantissa·2^e` with an odd mantissa; (0, 0) for zero.
+/// Returns `x = mantissa·2^e` with an odd mantissa, or (0, 0) for zero.
 fn odd_mantissa(x: f64) -> (i64, i32) {
     const FRACTION: u32 = 52;
     if x == 0.0 {
@@ -127,7 +127,7 @@ fn dyadic(field: PrimeField, x: f64, e: i32) -> Residue {
     )
 }
 
-/// Rows eliminated modulo a prime.
+/// Result of the elimination of rows modulo a prime.
 struct Reduction {
     /// Independent rows K, in the given order.
     kept: Vec<usize>,
@@ -135,12 +135,12 @@ struct Reduction {
     pivots: Vec<usize>,
     /// The determinant ± det A_KJ.
     determinant: Residue,
-    /// T for the other rows in ascending order, p×r row by row.
+    /// T for the other rows in ascending order, p×r, stored row by row.
     t: Vec<Residue>,
 }
 
-/// Eliminates the rows of `a` (n columns) in the given order and keeps each row that is independent
-/// of the previous ones.
+/// Eliminates the rows of `a` (n columns) in the given order. A row is kept if it is independent of
+/// the previous rows.
 fn reduce(field: PrimeField, a: &[Residue], n: usize, order: &[usize]) -> Reduction {
     let mut kept = Vec::new();
     let mut pivots: Vec<usize> = Vec::new();
@@ -171,8 +171,8 @@ fn reduce(field: PrimeField, a: &[Residue], n: usize, order: &[usize]) -> Reduct
             None => multipliers[i] = y,
         }
     }
-    // From y·U = T·L·U follows T = y·L⁻¹, solved from the last column. Later rows of K have
-    // coefficient zero.
+    // The equation y·U = T·L·U gives T = y·L⁻¹, which is solved from the last column. Later rows of
+    // K have coefficient zero.
     let mut in_order = kept.clone();
     in_order.sort_unstable();
     let mut t = Vec::with_capacity((order.len() - kept.len()) * kept.len());
@@ -195,7 +195,7 @@ fn reduce(field: PrimeField, a: &[Residue], n: usize, order: &[usize]) -> Reduct
     }
 }
 
-/// Exact dependencies.
+/// A row basis with exact dependencies of the other rows.
 pub(super) struct ExactBasis {
     /// Kept rows, ascending.
     pub(super) kept: Vec<usize>,
@@ -214,8 +214,8 @@ pub(super) fn exact_basis(a: &Integers, scaling: &Scaling, order: &[usize]) -> E
     for (k, &i) in order.iter().enumerate() {
         position[i] = k;
     }
-    // Modulo a prime that divides minors, the rank is lower, or independent rows and pivot columns
-    // are found later.
+    // If the prime divides minors, the rank modulo the prime is lower, or independent rows and
+    // pivot columns are found later.
     let key = |r: &Reduction| {
         let rows: Vec<usize> = r.kept.iter().map(|&i| position[i]).collect();
         (Reverse(rows.len()), rows, r.pivots.clone())
@@ -237,7 +237,7 @@ pub(super) fn exact_basis(a: &Integers, scaling: &Scaling, order: &[usize]) -> E
             reference = Some(now);
             break;
         }
-        // An entry of T is zero iff its N is zero; the determinant comes last.
+        // An entry of T is zero iff the minor N of the entry is zero. The determinant comes last.
         let minors: Vec<Residue> = now
             .t
             .iter()
@@ -294,7 +294,7 @@ struct MixedRadix {
     digits: Vec<Vec<u64>>,
 }
 
-/// mantissa·2^exponent.
+/// The number `mantissa·2^exponent`.
 struct Number {
     mantissa: f64,
     exponent: i64,
@@ -341,8 +341,8 @@ impl MixedRadix {
         self.digits.push(digits);
     }
 
-    /// Returns integer `l`, rounded to `f64`; its absolute value is below a quarter of the product
-    /// of the primes.
+    /// Returns integer `l`, rounded to `f64`. The absolute value of the integer must be below a
+    /// quarter of the product of the primes.
     fn number(&self, l: usize) -> Number {
         let (Some(last), Some(p_last)) = (self.digits.last(), self.fields.last()) else {
             return Number {
@@ -375,8 +375,8 @@ impl MixedRadix {
     }
 }
 
-/// The left null space of a matrix modulo a few primes. It is used to test without a tolerance
-/// whether a combination of rows vanishes on this space.
+/// The left null space of a matrix modulo a few primes. The null space is used to test, without a
+/// tolerance, whether a combination of rows vanishes on this space.
 ///
 /// "Not zero" is proved. "Zero" is wrong with probability below 2⁻¹³⁰ for data that were not
 /// constructed against the primes.
@@ -490,14 +490,14 @@ impl ExactNullSpace {
         let f = w.field;
         let mut image = vec![Residue::ZERO; w.p];
         for &(i, l) in combination.iter().filter(|x| x.1 != 0.0) {
-            // Z of C is that of A times 2^−exponents[i].
+            // Z of C is Z of A times 2^−exponents[i].
             let weight = f.negative(dyadic(f, l, -self.exponents[i]));
             f.subtract(weight, &w.z[i * w.p..(i + 1) * w.p], &mut image);
         }
         image
     }
 
-    /// Returns whether `B_X = C_Xᵀ·Z_X = 0` for the rows X, each listed once.
+    /// Returns whether `B_X = C_Xᵀ·Z_X` is zero for the rows X, each of which is listed once.
     ///
     /// # Panics
     /// Panics if a row does not exist.

@@ -4,11 +4,11 @@
 use super::certificate::{Certificate, NearlyRedundant};
 use linalg::{Matrix, Scaling, powers::scale};
 
-/// Rank of a constraint matrix C (m×n), with the rows to keep and the evidence for it.
+/// Rank of a constraint matrix C (m×n), with the rows to keep and the evidence for the rank.
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct RankDecision {
-    /// Rank r of C. If undecided, the candidate with the larger gap.
+    /// Rank r of C. If the rank is undecided, the candidate with the larger gap.
     pub rank: usize,
     /// Degree of redundancy p = m − r.
     pub redundancy: usize,
@@ -17,17 +17,17 @@ pub struct RankDecision {
     /// Redundant rows D, ascending; their number is p.
     pub dropped: Vec<usize>,
     /// T̃ = C̃_D·C̃_K⁺ (p×r) between the equilibrated rows: row `dropped[j]` = Σ T̃_ji · row
-    /// `kept[i]`. Its entries are at most 2 unless the caller chose the rows.
+    /// `kept[i]`. The entries are at most 2 unless the caller chose the rows.
     pub coefficients: Matrix,
     /// The scaling under which the rank was decided.
     pub scaling: Scaling,
     /// The singular values and errors that justify the decision.
     pub evidence: Evidence,
-    /// Whether the rank is decided, or otherwise the reason.
+    /// Whether the rank is decided, or the reason why it is undecided.
     pub status: RankStatus,
 }
 
-/// The values that justify a rank decision; all of them refer to the equilibrated matrix.
+/// The values that justify a rank decision. All values refer to the equilibrated matrix.
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Evidence {
@@ -55,10 +55,10 @@ pub struct Evidence {
 #[non_exhaustive]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub enum RankStatus {
-    /// `σ_{r+1} ≤ τ` and `σ_r ≥ max(10³·τ, 10⁻⁷)`; with a certificate, as stated by its
-    /// [`Grounds`](super::Grounds).
+    /// The rank is decided: `σ_{r+1} ≤ τ` and `σ_r ≥ max(10³·τ, 10⁻⁷)`. With a certificate, the
+    /// [`Grounds`](super::Grounds) of the certificate state the criterion.
     Decided,
-    /// Two ranks are compatible with the singular values; neither should be used.
+    /// Two ranks are compatible with the singular values. Neither rank should be used.
     Undecided(Doubt),
 }
 
@@ -81,7 +81,7 @@ pub enum Doubt {
         sigma: f64,
         /// Tolerance τ.
         tolerance: f64,
-        /// Required size max(10³·τ, 10⁻⁷).
+        /// Required size of a nonzero singular value, max(10³·τ, 10⁻⁷).
         required: f64,
     },
     /// A singular value is the same at every precision and about as large as the uncertainty of the
@@ -98,7 +98,7 @@ pub enum Doubt {
         sigma: f64,
         /// Tolerance τ.
         tolerance: f64,
-        /// Required size 4·τ.
+        /// Required size of a nonzero singular value, 4·τ.
         required: f64,
     },
     /// The rank would be lower if the data were wrong by about their rounding.
@@ -106,7 +106,7 @@ pub enum Doubt {
         "singular value {sigma:.3e}: an error of the data of {share:.2} times their rounding would change the rank from {upper} to {lower}; give the data with more digits, or place the mechanism nearer to the origin"
     )]
     WithinRounding {
-        /// The rank for other data within the rounding.
+        /// The rank for other data within the rounding of the data.
         lower: usize,
         /// The rank of the data as read.
         upper: usize,
@@ -130,7 +130,8 @@ pub enum Doubt {
         from: f64,
         /// The stated tolerance.
         tolerance: f64,
-        /// The unit of both: `m`, or `rad` if a tolerance is stated for angles only.
+        /// The unit of `from` and `tolerance`: `m`, or `rad` if a tolerance is stated for angles
+        /// only.
         unit: &'static str,
     },
     /// At this configuration, data within the tolerance have a lower rank. Too few other

@@ -1,13 +1,14 @@
-//! Computes how much each row of the dependencies of a matrix changes with its entries. In a model
-//! of mixed sizes, the uncertainty of the large part may exceed the entries of the small part. A
-//! single tolerance for all rows would therefore treat small coefficients as zero.
+//! Computes how much each row of the dependencies of a matrix changes with the entries of the
+//! matrix. In a model of mixed sizes, the uncertainty of the large part may exceed the entries of
+//! the small part. A single tolerance for all rows would therefore treat small coefficients as
+//! zero.
 
 use super::{Accuracy, RankDecision};
 use linalg::{Matrix, PivotedQr, kernels};
 
 /// Returns bounds on the norms of the rows of `δ[−T̃, I]`, m values, to first order in the
-/// uncertainty of the entries: `|δT| ≤ (U_D + |T|·U_K)·|C_K⁺|`, all equilibrated. `inverse` is
-/// `(C_K⁺)ᵀ` if it is known.
+/// uncertainty of the entries: `|δT| ≤ (U_D + |T|·U_K)·|C_K⁺|`. All matrices are equilibrated.
+/// `inverse` is `(C_K⁺)ᵀ` if it is known.
 pub(super) fn row_noise(
     decision: &RankDecision,
     c: &Matrix,

@@ -1,4 +1,5 @@
-//! A matrix with its singular values, which also apply to matrices that differ only by rounding.
+//! A matrix with its singular values. The values also apply to matrices that differ only by
+//! rounding.
 
 use linalg::{Matrix, singular_values};
 
@@ -32,9 +33,9 @@ impl Spectrum {
         &self.values
     }
 
-    /// Returns the singular values of another matrix, if it differs from this one by no more than
-    /// the rounding of a singular value, `‖A − B‖ ≤ eps·√(m·n)·σ₁`: by Weyl,
-    /// `|σ_k(A) − σ_k(B)| ≤ ‖A − B‖`.
+    /// Returns the singular values of another matrix if its difference from this matrix is at most
+    /// the rounding of a singular value, `‖A − B‖ ≤ eps·√(m·n)·σ₁`. By Weyl's theorem, `|σ_k(A) −
+    /// σ_k(B)| ≤ ‖A − B‖`.
     #[must_use]
     pub fn of_neighbour(&self, other: &Matrix) -> Option<&[f64]> {
         let (m, n) = (self.matrix.nrows(), self.matrix.ncols());

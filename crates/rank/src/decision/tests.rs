@@ -20,7 +20,7 @@ impl Numbers {
         z ^ (z >> 31)
     }
 
-    /// A value in [−1, 1).
+    /// Returns a value in [−1, 1).
     pub(super) fn unit(&mut self) -> f64 {
         (self.bits() >> 11) as f64 / (1u64 << 52) as f64 - 1.0
     }
@@ -34,7 +34,7 @@ impl Numbers {
     }
 }
 
-/// A random m×n matrix of rank r, with rows and columns scaled over 1e±8.
+/// Returns a random m×n matrix of rank r. Its rows and columns are scaled over 1e±8.
 fn planted(numbers: &mut Numbers, m: usize, n: usize, r: usize) -> Matrix {
     let product = numbers.matrix(m, r).product(&numbers.matrix(r, n));
     let rows: Vec<f64> = (0..m).map(|_| 10f64.powf(8.0 * numbers.unit())).collect();
@@ -42,8 +42,8 @@ fn planted(numbers: &mut Numbers, m: usize, n: usize, r: usize) -> Matrix {
     Matrix::from_fn(m, n, |i, j| rows[i] * product[(i, j)] * cols[j])
 }
 
-/// Three parallel cranks of length `l`, pitch `l` and angle θ on one coupler. The matrix is 12×12,
-/// of rank 11 unless the linkage is flat.
+/// Returns the matrix of three parallel cranks of length `l`, pitch `l` and angle θ on one coupler.
+/// The matrix is a 12×12 matrix. Its rank is 11 unless the linkage is flat.
 pub(super) fn parallel_cranks(l: f64, theta: f64) -> Matrix {
     let (s, c) = theta.sin_cos();
     let half = 0.5 * l;
@@ -132,7 +132,7 @@ fn parallel_cranks_lose_another_rank_when_flat() {
         );
     }
     // For a small angle, σ₁₁ is proportional to the angle. Between the clear cases the rank is
-    // undecided, but never wrong.
+    // undecided, but it is never wrong.
     let near = decide(&parallel_cranks(1.0, 1e-13), crate::Accuracy::Rounding).unwrap();
     assert!(
         matches!(
@@ -240,7 +240,7 @@ fn admissible_pairs_by_brute_force() {
     }
 }
 
-/// Kahan's matrix: pivoted QR does not show how small its smallest singular value is.
+/// Kahan's matrix. The pivots of pivoted QR do not show how small its smallest singular value is.
 pub(super) fn kahan(n: usize, angle: f64) -> Matrix {
     let (s, c) = angle.sin_cos();
     Matrix::from_fn(n, n, |i, j| {
@@ -302,7 +302,8 @@ fn residual_sets_the_tolerance() {
     ));
 }
 
-/// Noise above a hundredth hides singular values above √eps; smaller noise hides only rounding.
+/// Noise above a hundredth hides singular values above √eps. Smaller noise hides only rounding
+/// errors.
 #[test]
 fn coarse_data_hide_what_is_no_rounding() {
     for (sigma, tolerance, is_hidden) in [
@@ -353,7 +354,7 @@ proptest! {
                     prop_assert!(!c[(row, col)].is_finite());
                 }
                 Err(RankError::Uncertainty { value }) => {
-                    // The other case is an entry so large that the norm of the whole matrix
+                    // In the other case an entry is so large that the norm of the whole matrix
                     // overflows.
                     prop_assert!(!((36.0 * value).is_finite() && value >= 0.0));
                 }

@@ -16,21 +16,22 @@ use crate::limits::{CLEAR_OF_DATA, HIDDEN, NEARLY_REDUNDANT, NOISE_FACTOR, VANIS
 use crate::strong_basis::{self, Basis};
 use linalg::{Dd, DdMatrix, Scaling};
 
-/// Decides the rank of C (m×n), evaluated in double-double at a refined configuration, for a model
-/// whose data have the given uncertainty.
+/// Decides the rank of C (m×n) for a model whose data have the given uncertainty. C must be
+/// evaluated in double-double at a refined configuration.
 ///
 /// | argument | meaning |
 /// | --- | --- |
 /// | `c` | constraint matrix; its entries have errors of double-double only |
-/// | `uncertainty` | distance of the entries from those of the intended model; see [`Accuracy`]. Near a singular configuration they change with the square root of the data |
+/// | `uncertainty` | distance between the entries and the entries of the intended model; see [`Accuracy`]. Near a singular configuration the entries change with the square root of the data |
 ///
 /// Let u be the largest uncertainty of an equilibrated entry, s the Frobenius norm of all
 /// uncertainties, and `τ = max(10·u, s)`. A singular value below τ is zero for some matrix within
 /// the uncertainty. A singular value above 4·τ is not zero for any such matrix. There are four
 /// results: exactly redundant (σ_{r+1} ≤ 1e-26, [`Grounds::Vanishes`]); redundant within the data
-/// ([`Grounds::WithinData`]); of full rank although [nearly
+/// ([`Grounds::WithinData`]); of full rank, but possibly [nearly
 /// redundant](RankDecision::nearly_redundant); or undecided. The result is undecided between τ and
-/// 4·τ, and if τ is above 0.01, because entries of about one would be hidden.
+/// 4·τ. The result is also undecided if τ is above 0.01, because entries of about one would be
+/// hidden.
 ///
 /// ```
 /// use linalg::{Dd, DdMatrix, Matrix};
@@ -60,7 +61,7 @@ pub fn certify_within<'a>(
     let known = uncertainty.into();
     let (scaling, spread) = known.equilibrate(&leading)?;
     let root = (m as f64 * n as f64).sqrt();
-    // Entries in double-double are not more accurate than this, even if the caller states a
+    // Entries in double-double are not more accurate than this value, even if the caller states a
     // higher accuracy.
     let rounding = 4.0 * root.max(1.0) * Dd::EPSILON;
     let (uncertainty, spread) = (
@@ -120,28 +121,28 @@ pub fn certify_within<'a>(
 pub struct RankReading {
     /// Rank r.
     pub rank: usize,
-    /// Whether the rank is decided, or otherwise the reason.
+    /// Whether the rank is decided, or the reason why it is undecided.
     pub status: RankStatus,
     /// The scaling of the decision.
     pub scaling: Scaling,
     /// The equilibrated matrix of the decision.
     pub matrix: Spectrum,
-    /// Uncertainty of all entries together: a singular value below it counts as zero.
+    /// Uncertainty of all entries together. A singular value below it counts as zero.
     pub noise: f64,
-    /// Lower limit of the non-zero singular values. A matrix with a smaller nonzero value does not
-    /// have this rank.
+    /// Lower limit of the non-zero singular values. If a nonzero singular value is smaller, the
+    /// matrix does not have this rank.
     pub separation: f64,
     /// Reason why the remaining rows count as redundant although their singular values do not
     /// vanish at doubled precision.
     pub grounds: Grounds,
 }
 
-/// Chooses kept rows and computes dependencies and double-double evidence for a rank that was
-/// decided from data with the given uncertainty (m×n, in the units of C). Returns `None` if
-/// double-double shows another rank, because the rank then belongs to another matrix.
+/// Chooses kept rows and computes dependencies and double-double evidence for a given rank. The
+/// rank was decided from data with the given uncertainty (m×n, in the units of C). Returns `None`
+/// if double-double gives another rank, because the given rank then belongs to another matrix.
 ///
 /// # Errors
-/// Same errors as [`certify_within`].
+/// Returns the same errors as [`certify_within`].
 pub fn certify_rank(
     c: &DdMatrix,
     uncertainty: &linalg::Matrix,

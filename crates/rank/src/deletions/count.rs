@@ -1,21 +1,21 @@
-//! Counts admissible deletions, component by component, by deletion and contraction on classes of
-//! rows that can replace each other.
+//! Counts admissible deletions, component by component. The method is deletion and contraction on
+//! classes of rows that can replace each other.
 
 use super::{DeletionError, duals};
 use crate::RankDecision;
 use crate::dual::{Dual, Noise, Unclear, rank};
 use crate::limits::COUNT_STEPS;
 
-/// Returns the number of admissible sets of p rows, as a product over all components (coupled
-/// rows).
+/// Returns the number of admissible sets of p rows. The number is a product over all components
+/// (coupled rows).
 ///
 /// The number of sets in a component is computed exactly: `b = w·b(contracted) + b(deleted)` for a
-/// class of w parallel vectors, with closed forms for redundancy 1 (the number of rows) and 2
+/// class of w parallel vectors. Closed forms are used for redundancy 1 (the number of rows) and 2
 /// (pairs of rows of different classes).
 ///
 /// # Errors
 /// - [`DeletionError::Rank`]: the rank is undecided.
-/// - [`DeletionError::Unclear`]: for a set it is undecided whether it is admissible.
+/// - [`DeletionError::Unclear`]: it is undecided whether some set is admissible.
 /// - [`DeletionError::TooMany`]: a component is too large, or the number exceeds 128 bits.
 pub fn count_deletions(decision: &RankDecision) -> Result<u128, DeletionError> {
     let mut product = 1_u128;
@@ -44,8 +44,8 @@ fn weighted(dual: &Dual) -> Vec<Class> {
     dual.vectors.iter().map(class).collect()
 }
 
-/// Returns Σ over all bases of the product of weights. Returns `None` if the limit of steps is
-/// reached or 128 bits are not sufficient.
+/// Returns the sum over all bases of the product of weights. Returns `None` if the limit of steps
+/// is reached or 128 bits are not sufficient.
 fn count(
     classes: Vec<Class>,
     noise: Noise,
@@ -67,8 +67,8 @@ fn count(
     if rank(vectors(&classes), noise)? < p {
         return Ok(Some(0));
     }
-    // Eliminating with the largest vector keeps the multipliers of the contraction at most one, so
-    // the noise does not grow.
+    // The vector with the largest coordinate is used for the elimination. The multipliers of the
+    // contraction are therefore at most one, and the noise does not grow.
     let size = |c: &Class| linalg::kernels::max_abs(&c.vector);
     let Some(at) =
         (0..classes.len()).max_by(|&a, &b| size(&classes[a]).total_cmp(&size(&classes[b])))
@@ -107,7 +107,7 @@ fn merged(classes: Vec<Class>, noise: Noise) -> Result<Vec<Class>, Unclear> {
     Ok(distinct)
 }
 
-/// Returns Σ w for p = 1, and Σ w_a·w_b over pairs for p = 2, in which different classes are
+/// Returns Σ w for p = 1, and Σ w_a·w_b over pairs for p = 2. Different classes must be
 /// independent.
 fn pairs_or_singles(classes: &[Class], p: usize) -> Option<u128> {
     let (mut singles, mut pairs) = (0_u128, 0_u128);
@@ -118,7 +118,7 @@ fn pairs_or_singles(classes: &[Class], p: usize) -> Option<u128> {
     Some(if p == 1 { singles } else { pairs })
 }
 
-/// Returns the vectors modulo `taken`, whose largest coordinate is eliminated and removed.
+/// Returns the vectors modulo `taken`. The largest coordinate of `taken` is eliminated and removed.
 fn contracted(classes: &[Class], taken: &[f64]) -> Vec<Class> {
     let largest = |a: usize, b: usize| {
         if taken[b].abs() > taken[a].abs() {

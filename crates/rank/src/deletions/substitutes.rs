@@ -33,12 +33,12 @@ pub struct Substitutes {
     /// smallest number of candidates. The result is one empty set if the target is already unique,
     /// and no set if no deletion of candidates makes it unique.
     pub sets: Vec<Vec<usize>>,
-    /// Whether all sets of that size are listed. If not, a limit was reached.
+    /// Whether all sets of the smallest size are listed. If not, a limit was reached.
     pub complete: bool,
 }
 
-/// Returns the smallest sets of candidates that can be deleted without a change of motion and make
-/// all combinations `ℓᵀ·λ`, the rows of `target`, unique.
+/// Returns the smallest sets of candidates whose deletion does not change the motion and makes all
+/// combinations `ℓᵀ·λ`, the rows of `target`, unique.
 ///
 /// | argument | shape | meaning |
 /// | --- | --- | --- |
@@ -154,7 +154,7 @@ fn check(
     }
 }
 
-/// Returns all rows that belong to a dependency, with all p coordinates.
+/// Returns the dual of all rows that belong to a dependency, with all p coordinates.
 fn whole(decision: &RankDecision) -> Dual {
     let mut rows = components(decision).coupled.concat();
     rows.sort_unstable();
@@ -170,7 +170,7 @@ struct Directions {
 impl Directions {
     fn new(decision: &RankDecision, target: &Matrix, dual: &Dual) -> Self {
         let m = target.ncols();
-        // λ_i of the given C is D_r,i times that of the equilibrated rows.
+        // λ_i of the given C is D_r,i times λ_i of the equilibrated rows.
         let scaled = Matrix::from_fn(target.nrows(), m, |k, i| {
             target[(k, i)] * decision.scaling.row_factor(i)
         });
@@ -187,7 +187,7 @@ impl Directions {
         };
         Self {
             vectors: (0..scaled.nrows()).map(direction).collect(),
-            // A sum of m terms with unit norm adds the noise of each.
+            // A sum of m terms with unit norm adds the noise of each term.
             noise: dual.noise.times((m as f64).sqrt()),
         }
     }
@@ -199,8 +199,8 @@ struct Unit {
     places: Vec<usize>,
 }
 
-/// Returns candidates in the components that the target involves, without those that share a row
-/// with it or cannot be deleted.
+/// Returns the candidates in the components that the target involves. Candidates that share a row
+/// with the target or cannot be deleted are omitted.
 fn units(
     decision: &RankDecision,
     target: &Matrix,
@@ -236,8 +236,8 @@ fn units(
     Ok(units)
 }
 
-/// Groups units that can replace each other, which are units of one row each with parallel vectors.
-/// Every other unit forms a separate class.
+/// Groups units that can replace each other. Such units consist of one row each with parallel
+/// vectors. Every other unit forms a separate class.
 fn replaceable(units: &[Unit], dual: &Dual) -> Result<Vec<Vec<usize>>, Unclear> {
     let mut classes: Vec<Vec<usize>> = Vec::new();
     'units: for (u, unit) in units.iter().enumerate() {
@@ -256,7 +256,8 @@ fn replaceable(units: &[Unit], dual: &Dual) -> Result<Vec<Vec<usize>>, Unclear> 
     Ok(classes)
 }
 
-/// Returns whether deleting these rows keeps the motion unchanged and makes the directions unique.
+/// Returns whether the deletion of these rows keeps the motion unchanged and makes the directions
+/// unique.
 fn suffices(places: &[usize], dual: &Dual, directions: &Directions) -> Result<bool, Unclear> {
     if dual.rank(places)? < places.len() {
         return Ok(false);

@@ -6,7 +6,7 @@ use crate::decide;
 use crate::dual::subsets;
 use linalg::{Matrix, singular_values};
 
-/// Rank of a well-conditioned integer matrix.
+/// Returns the rank of a well-conditioned integer matrix.
 fn rank_of(c: &Matrix, rows: &[usize]) -> usize {
     let sigma = singular_values(&c.select_rows(rows));
     sigma.iter().filter(|s| **s > 1e-9).count()
@@ -16,7 +16,7 @@ fn without(m: usize, set: &[usize]) -> Vec<usize> {
     (0..m).filter(|i| !set.contains(i)).collect()
 }
 
-/// Small integers; a few rows repeat, vanish, or are sums of others.
+/// Returns small integers. A few rows repeat, vanish, or are sums of other rows.
 fn sample(seed: u64) -> Matrix {
     let mut state = seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) | 1;
     let mut next = move |below: u64| {
@@ -76,7 +76,7 @@ fn smallest_sets_that_make_a_multiplier_or_a_group_unique() {
         let (m, decision) = (c.nrows(), decide(&c, crate::Accuracy::Rounding).unwrap());
         let rows: Vec<Vec<usize>> = (0..m).map(|i| vec![i]).collect();
         for group in [vec![0], vec![1, 2]] {
-            // Wrench: n combinations with the columns of C_X as coefficients.
+            // The target of a wrench: n combinations, whose coefficients are the columns of C_X.
             let target = Matrix::from_fn(c.ncols(), m, |k, i| {
                 if group.contains(&i) { c[(i, k)] } else { 0.0 }
             });
@@ -91,8 +91,8 @@ fn smallest_sets_that_make_a_multiplier_or_a_group_unique() {
     assert!(sizes[0] > 20 && sizes[1] > 20 && sizes[2] > 5, "{sizes:?}");
 }
 
-/// Result by definition: after deleting D the rank is unchanged, and rank C = rank C_X + the rank
-/// of the other remaining rows.
+/// Returns the result according to the definition. After D is deleted, the rank is unchanged, and
+/// rank C is the sum of rank C_X and the rank of the other remaining rows.
 fn by_ranks(c: &Matrix, rank: usize, group: &[usize]) -> Vec<Vec<usize>> {
     let m = c.nrows();
     let zero = |i: &usize| c.row(*i).iter().all(|x| *x == 0.0);
@@ -105,8 +105,8 @@ fn by_ranks(c: &Matrix, rank: usize, group: &[usize]) -> Vec<Vec<usize>> {
                     .copied()
                     .filter(|i| !group.contains(i))
                     .collect();
-                // A row of zeros in the group has no coefficient in the target, so it may be
-                // deleted like the other rows.
+                // A row of zeros in the group has no coefficient in the target. Therefore it may be
+                // deleted like the rows outside the group.
                 set.iter().all(|i| !group.contains(i) || zero(i))
                     && rank_of(c, &left) == rank
                     && rank_of(c, group) + rank_of(c, &rest) == rank
@@ -141,7 +141,7 @@ fn large_redundancies_are_counted() {
 
 #[test]
 fn limits_units_and_refusals() {
-    // Rows 0, 1, 2 equal; rows 3, 4 equal.
+    // Rows 0, 1 and 2 are equal, and rows 3 and 4 are equal.
     let c = Matrix::from_rows(&[[1.0, 0.0], [1.0, 0.0], [1.0, 0.0], [0.0, 1.0], [0.0, 1.0]]);
     let decision = decide(&c, crate::Accuracy::Rounding).unwrap();
     let target = Matrix::from_rows(&[[1.0, 0.0, 0.0, 0.0, 0.0]]);
@@ -149,7 +149,8 @@ fn limits_units_and_refusals() {
         making_unique(&decision, &target, units, |_| true, limits).unwrap()
     };
     assert_eq!(ask(&[vec![1, 2]], Limits::default()).sets, [[0]]);
-    // {1, 3} and {2} together; {0, 1} shares a row with the target, {3, 4} would change the motion.
+    // {1, 3} and {2} are possible at the same time. {0, 1} shares a row with the target, and {3, 4}
+    // would change the motion.
     let units = [vec![1, 3], vec![2], vec![0, 1], vec![3, 4]];
     assert_eq!(ask(&units, Limits::default()).sets, [[0, 1]]);
     let none = ask(&units, Limits { sets: 9, trials: 0 });

@@ -1,13 +1,13 @@
-//! The factorisation C = Q·R, body by body, which also determines the rank.
+//! The factorisation C = Q·R. The factorisation proceeds body by body and also determines the rank.
 //!
 //! Each front is triangularised by Householder reflections. A pivot column whose remaining norm is
-//! below the tolerance is *dead* and skipped (Heath's rule); columns are exchanged only among those
-//! of one body. The part of the front below its pivots is also triangularised, so that it has at
-//! most as many rows as columns when it is passed to the parent front. Rows that become zero span
-//! the left null space. E collects all entries that are set to zero: `C + E = Q·R` up to rounding,
-//! hence `σ_{r+1}(C) ≤ ‖E‖`. The live columns are not changed by dropping dead ones. Another module
-//! decides whether this rank is reliable: the live columns may be nearly dependent although no
-//! single column shows it.
+//! below the tolerance is *dead* and skipped (Heath's rule). Columns are exchanged only with
+//! columns of the same body. The part of the front below its pivots is also triangularised. The
+//! front therefore has at most as many rows as columns when it is passed to the parent front. Rows
+//! that become zero span the left null space. E collects all entries that are set to zero: `C + E =
+//! Q·R` up to rounding, hence `σ_{r+1}(C) ≤ ‖E‖`. Dropping dead columns does not change the live
+//! columns. Another module decides whether this rank is reliable: the live columns may be nearly
+//! dependent although no single column indicates it.
 //!
 //! Source: M. T. Heath, Some extensions of an algorithm for sparse linear least squares problems,
 //! SIAM J. Sci. Stat. Comput. 3 (1982) 223–237; T. A. Davis, Algorithm 915: SuiteSparseQR, ACM
@@ -34,7 +34,7 @@ pub(super) struct Tolerances {
     pub(super) rest: f64,
 }
 
-/// C = Q·R with r rows in R; one of the factors is empty.
+/// C = Q·R, where R has r rows. One of the factors is empty.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct SparseQr {
     pub(super) q: Reflectors,
@@ -102,13 +102,13 @@ struct Householder {
     /// The vector v of the current reflection: (row of the front, value).
     v: Vec<(usize, f64)>,
     product: Vec<f64>,
-    /// The finished part. During the factorisation it contains squares in place of norms, and
+    /// The finished part. During the factorisation it contains squares in place of norms. The field
     /// `dropped` does not include the lower parts of fronts.
     found: SparseQr,
 }
 
 impl Householder {
-    /// Triangularises the front: rows of R for its pivots, and a remainder without zero rows.
+    /// Triangularises the front into rows of R for its pivots and a remainder without zero rows.
     fn eliminate(&mut self, front: &Front) {
         let (mut top, mut start) = (0, 0);
         for &end in &front.ends {
@@ -140,7 +140,7 @@ impl Householder {
     }
 
     /// Moves the column among `at..end` with the largest norm from row `top` onwards to `at`.
-    /// Returns its norm, and the square of the norm of all these columns.
+    /// Returns the norm of this column, and the square of the norm of all these columns.
     fn largest_first(&mut self, top: usize, at: usize, end: usize) -> (f64, f64) {
         let width = self.front.width();
         let (mut square, mut largest, mut total) = (0.0, at, 0.0);
@@ -167,8 +167,8 @@ impl Householder {
         }
     }
 
-    /// Reflects column `at`, whose norm from row `top` onwards is `norm`, into that row. Rows in
-    /// which the column is zero do not change.
+    /// Reflects column `at` into row `top`. `norm` is the norm of the column from row `top`
+    /// onwards. Rows in which the column is zero do not change.
     fn reflect(&mut self, top: usize, at: usize, norm: f64) {
         let width = self.front.width();
         let entry = |i: usize| (i, self.front.values[i * width + at]);

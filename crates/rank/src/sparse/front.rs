@@ -1,25 +1,25 @@
 //! Assembles one front at a time from rows of C and the remainders of the fronts below. The
-//! remainder of the front is passed to the front above.
+//! remainder of the assembled front is passed to the front above.
 //!
 //! The module `factor` performs the operations on a front.
 
 use super::symbolic::{Front, Symbolic};
 use linalg::SparseMatrix;
 
-/// Marks a column outside the front.
+/// Marks columns that are not in the front.
 const OUTSIDE: usize = usize::MAX;
 
-/// The current front, and the remainders that have not been used yet.
+/// The current front, and the remainders of other fronts that have not been used yet.
 pub(super) struct Assembly {
     /// The columns of C in the front, in the order of the front.
     pub(super) columns: Vec<usize>,
-    /// The original row of C of each row.
+    /// For each row of the front, the original row of C.
     pub(super) rows: Vec<usize>,
     /// Values, row by row.
     pub(super) values: Vec<f64>,
     /// Index in the front of each column of C.
     position: Vec<usize>,
-    /// Remainders of fronts that have not been used yet, the latest at the end.
+    /// Remainders of fronts that have not been used yet, the latest remainder at the end.
     waiting: Vec<Rest>,
     waiting_rows: Vec<usize>,
     waiting_columns: Vec<usize>,
@@ -57,7 +57,7 @@ impl Assembly {
         self.columns.len()
     }
 
-    /// Assembles the rows of C that occur here first, and the remainders of the children.
+    /// Assembles the rows of C that first occur in this front, and the remainders of the children.
     pub(super) fn assemble(
         &mut self,
         front: &Front,
@@ -114,8 +114,8 @@ impl Assembly {
         self.waiting_values.truncate(values);
     }
 
-    /// Passes these rows, without the pivots, to the front above. If there is a front above, it
-    /// also expects an empty remainder.
+    /// Passes these rows, without the pivots, to the front above. If there is a front above, an
+    /// empty remainder is also passed.
     pub(super) fn leave(&mut self, pivots: usize, rows: impl Iterator<Item = usize>) {
         let width = self.width();
         if pivots == width {
@@ -135,7 +135,7 @@ impl Assembly {
         });
     }
 
-    /// Exchanges rows `top` and `i`, `top ≤ i`.
+    /// Exchanges rows `top` and `i`, where `top ≤ i`.
     pub(super) fn swap_rows(&mut self, top: usize, i: usize) {
         if i != top {
             let width = self.width();

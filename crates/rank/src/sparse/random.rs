@@ -1,11 +1,11 @@
-//! Pseudo-random numbers from a counter: the same seed and index give the same bits on every
+//! Pseudo-random numbers from a counter. The same seed and index give the same bits on every
 //! platform.
 //!
-//! The numbers are uniform, not normal. This avoids logarithms and cosines, whose last bits differ
-//! between platforms. Uniform values have the required properties, like normal ones. The mean is
-//! zero and the variance one, so that `E (zᵀx)² = ‖z‖²`. The product `zᵀx` is rarely much smaller:
-//! for ‖z‖ = 1 its density is at most `√2/(2·√3) < 0.41` (normal: 0.40), because no section of the
-//! unit cube is larger than √2.
+//! The numbers are uniform, not normal. Uniform numbers avoid logarithms and cosines, whose last
+//! bits differ between platforms. Uniform values have the same required properties as normal
+//! values. The mean is zero and the variance is one, so `E (zᵀx)² = ‖z‖²`. The product `zᵀx` is
+//! rarely much smaller: for ‖z‖ = 1 its density is at most `√2/(2·√3) < 0.41` (normal: 0.40),
+//! because no section of the unit cube is larger than √2.
 //!
 //! Source: G. L. Steele, D. Lea, C. H. Flood, Fast splittable pseudorandom number generators,
 //! OOPSLA (2014), for SplitMix64; K. Ball, Cube slicing in Rⁿ, Proc. Amer. Math. Soc. 97 (1986)
@@ -16,12 +16,12 @@ use super::reflectors::Lanes;
 /// Factor in `P(|zᵀx| < ε) ≤ DENSITY·ε` for ‖z‖ = 1: twice the largest density.
 pub(super) const DENSITY: f64 = 0.82;
 
-/// Returns `n` rows of numbers between −√3 and √3; different streams have different numbers.
+/// Returns `n` rows of numbers between −√3 and √3. Different streams have different numbers.
 pub(super) fn uniform(n: usize, seed: u64, stream: u64) -> Vec<Lanes> {
     let key = mix(seed ^ mix(stream));
     let lane = |i: usize, l: usize| {
         let place = (i * size_of::<Lanes>() / size_of::<f64>() + l) as u64;
-        // The upper 53 bits, centred, so the number is never zero.
+        // The upper 53 bits are centred, so the number is never zero.
         let k = mix(key.wrapping_add(place.wrapping_mul(GOLDEN))) >> 11;
         (k as f64 + 0.5 - HALF) / HALF * 3f64.sqrt()
     };

@@ -1,4 +1,4 @@
-//! The rank of a sparse matrix, by the rule of dense rank decisions, with evidence that costs a few
+//! The rank of a sparse matrix, by the rule of dense rank decisions. The evidence costs a few
 //! factorisations.
 //!
 //! `C̃ = D_r·C·D_c` is equilibrated and factored twice:
@@ -6,15 +6,15 @@
 //! - `C̃ = Q·R` by columns gives r, and random combinations W of the left null space. ‖C̃ᵀ·W‖ is an
 //!   upper estimate of σ_{r+1}.
 //! - `C̃ᵀ = Q'·R'` by rows gives the kept rows K as its live columns. `R'₁₁ᵀ·R'₁₁ = C̃_K·C̃_Kᵀ`, so
-//!   its smallest singular value is that of the kept rows, and `σ_r(C̃) ≥ σ_min(C̃_K)`.
+//!   the smallest singular value of R'₁₁ is that of the kept rows, and `σ_r(C̃) ≥ σ_min(C̃_K)`.
 //!
-//! The live columns of R are not used for this. If a mechanism has many degrees of freedom,
+//! The live columns of R do not give the kept rows. If a mechanism has many degrees of freedom,
 //! coordinates chosen body by body may be exponentially close to dependent. Rows that are clearly
 //! independent would then appear dependent.
 //!
 //! The ranks follow Heath's rule, which may be wrong. A rank that is too large is visible in
 //! σ_min(C̃_K) or as a different rank of the other factorisation. A rank that is too small is
-//! visible in ‖C̃ᵀ·W‖. In both cases the result is undecided, and not a wrong rank.
+//! visible in ‖C̃ᵀ·W‖. In both cases the result is undecided instead of a wrong rank.
 //!
 //! Source: L. V. Foster, T. A. Davis, Algorithm 933: Reliable calculation of numerical rank, null
 //! space bases, pseudoinverse solutions, and basic solutions using SuiteSparseQR, ACM Trans. Math.
@@ -43,7 +43,7 @@ mod tests;
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct SparseRank {
-    /// Rank r of C. If undecided, an estimate.
+    /// Rank r of C. If the rank is undecided, an estimate.
     pub rank: usize,
     /// Degree of redundancy p = m − r.
     pub redundancy: usize,
@@ -58,16 +58,16 @@ pub struct SparseRank {
     pub sketch: Matrix,
     /// The values that justify the decision.
     pub evidence: SparseEvidence,
-    /// Whether the rank is decided, or otherwise the reason.
+    /// Whether the rank is decided, or the reason why it is undecided.
     pub status: RankStatus,
 }
 
-/// The values that justify a sparse rank decision; all of them refer to the equilibrated matrix.
+/// The values that justify a sparse rank decision. All values refer to the equilibrated matrix.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct SparseEvidence {
-    /// Lower bound on the smallest singular value of the kept rows, and therefore on σ_r. It is at
-    /// most about four times too small, and infinite for rank 0.
+    /// Lower bound on the smallest singular value of the kept rows, and therefore on σ_r. The bound
+    /// is at most about four times too small, and infinite for rank 0.
     pub sigma_r: f64,
     /// ‖Cᵀ·W‖ (Frobenius), which estimates ‖Cᵀ·Z‖ ≥ σ_{r+1}. If all p dependencies exist only
     /// within the stated uncertainty, it is up to √p times larger than σ_{r+1}. The rank is then
@@ -79,9 +79,10 @@ pub struct SparseEvidence {
     pub uncertainty: f64,
     /// ‖E‖ (Frobenius): the entries that the factorisation by columns set to zero.
     pub backward_error: f64,
-    /// Largest norm of a row of W that is within its noise; 0 if there is no such row.
+    /// Largest norm among the rows of W that are within their noise; 0 if there is no such row.
     pub largest_zero: f64,
-    /// Smallest norm of a row of W that is above its noise; infinite if there is no such row.
+    /// Smallest norm among the rows of W that are above their noise; infinite if there is no such
+    /// row.
     pub smallest_margin: f64,
     /// Memory of the factors (bytes).
     pub bytes: usize,
@@ -102,8 +103,8 @@ pub enum SparseRankError {
         /// Column of the entry.
         column: usize,
     },
-    /// Too many bodies, or too many rows of one body, are connected to each other for a separate
-    /// elimination of each.
+    /// Too many bodies, or too many rows of one body, are connected to each other. The separate
+    /// elimination of these bodies or rows would take too long.
     #[error(
         "elimination needs about {work:.1e} operations, at most {limit:.1e} are made; bodies or rows are joined too closely"
     )]
@@ -127,8 +128,9 @@ pub enum SparseRankError {
     },
 }
 
-/// Decides the rank of a sparse C whose columns form blocks, one for the coordinates of each body.
-/// A range beyond the matrix is truncated, and a column outside all blocks is a separate block.
+/// Decides the rank of a sparse C whose columns form blocks. Each block contains the coordinates of
+/// one body. A range beyond the matrix is truncated, and a column outside all blocks is a separate
+/// block.
 ///
 /// `uncertainty` is the uncertainty of the entries of the equilibrated matrix beyond rounding.
 ///
@@ -157,8 +159,8 @@ pub fn decide_sparse(
     SparsePattern::new(c, blocks)?.decide(c, uncertainty, wanted)
 }
 
-/// The positions of the entries of matrices with one pattern, and the order of their factorisation,
-/// for many decisions on matrices with different values.
+/// The positions of the entries of matrices with one pattern, and the order of their factorisation.
+/// The result can be used for many decisions on matrices with different values.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct SparsePattern {
     by_columns: Symbolic,
@@ -180,7 +182,7 @@ impl SparsePattern {
         })
     }
 
-    /// Returns the estimated memory (bytes) of a decision with this number of random combinations.
+    /// Returns the estimated memory (bytes) of a decision with the random combinations `wanted`.
     pub fn bytes(&self, wanted: Sketch) -> usize {
         let rows = self.by_columns.nrows;
         let q = self.by_columns.bytes(KeptFactor::Q);
@@ -248,8 +250,8 @@ impl SparsePattern {
         Ok(found)
     }
 
-    /// Returns the factorisation of Cᵀ whose live columns are the kept rows. From sufficiently
-    /// independent rows, it keeps those with the largest remaining norm.
+    /// Returns the factorisation of Cᵀ whose live columns are the kept rows. Among sufficiently
+    /// independent rows, the rows with the largest remaining norm are kept.
     fn kept_rows(
         &self,
         transposed: &SparseMatrix,

@@ -1,7 +1,7 @@
-//! Q stored as a product of Householder reflections, each of a few rows.
+//! Q stored as a product of Householder reflections. Each reflection involves a few rows.
 //!
 //! `Q = H₁·H₂⋯H_s` with `H = I − v·vᵀ`, `‖v‖² = 2`, and v sparse. Several vectors are reflected at
-//! the same time, because the rows of v are then looked up only once.
+//! the same time, so the rows of v are looked up only once.
 
 use crate::limits::REFLECTORS_WIDTH;
 

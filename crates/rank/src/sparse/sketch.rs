@@ -4,7 +4,7 @@
 //! is never formed. Let Ω have k random columns with mean zero and variance 1/k, and
 //! `W = Q·[0; Ω]`. For any group J of at most k rows, the following holds with probability one:
 //! `W_J = 0` iff `Z_J = 0`, `rank W_J = rank Z_J`, and both have the same left null space. The norm
-//! of a row of W estimates that of the row of Z.
+//! of a row of W estimates the norm of the same row of Z.
 
 use super::factor::SparseQr;
 use super::random;
@@ -16,8 +16,8 @@ use linalg::SparseMatrix;
 /// Parameters of the random combinations.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Sketch {
-    /// Number of combinations k: at least the number of rows of the largest analysed group, and a
-    /// few more so that failures are improbable.
+    /// Number of combinations k. The number of combinations must be at least the number of rows of
+    /// the largest analysed group, with a few more so that failures are improbable.
     pub columns: usize,
     /// Seed of the random numbers.
     pub seed: u64,

@@ -1,10 +1,10 @@
-//! A lower bound on the smallest singular value of the live columns, which Heath's rule does not
-//! provide.
+//! A lower bound on the smallest singular value of the live columns. Heath's rule does not provide
+//! such a bound.
 //!
-//! With `A = (R₁₁ᵀ·R₁₁)⁻¹`, whose largest eigenvalue is `1/σ²` with unit eigenvector u, any x has
-//! `‖A^q·x‖ ≥ σ^(−2q)·|uᵀx|`, hence `σ ≥ (|uᵀx| / ‖A^q·x‖)^(1/2q)`. For a random x the product
-//! `uᵀx` is below ε with a probability of at most 0.82·ε. The probability that all vectors of a
-//! batch are below ε is the corresponding power, which determines ε.
+//! Let `A = (R₁₁ᵀ·R₁₁)⁻¹`. The largest eigenvalue of A is `1/σ²`, with unit eigenvector u. Any x
+//! satisfies `‖A^q·x‖ ≥ σ^(−2q)·|uᵀx|`, hence `σ ≥ (|uᵀx| / ‖A^q·x‖)^(1/2q)`. For a random x the
+//! product `uᵀx` is below ε with a probability of at most 0.82·ε. The probability that all vectors
+//! of a batch are below ε is the corresponding power, which determines ε.
 //!
 //! Source: J. D. Dixon, Estimating extremal eigenvalues and condition numbers of matrices, SIAM J.
 //! Numer. Anal. 20 (1983) 812–814, here with a bound that does not need the norm of x.
@@ -14,7 +14,7 @@ use super::reflectors::Lanes;
 use super::trapezoid::Trapezoid;
 use crate::limits::{FAILURE, REFLECTORS_WIDTH, SOLVES};
 
-/// A stream number that the sketch does not use.
+/// A number of a random stream that the sketch does not use.
 const STREAM: u64 = u64::MAX;
 
 /// Returns a lower bound on σ_r of R₁₁, with a probability of failure of 10⁻⁹. The bound is
@@ -26,7 +26,7 @@ pub(super) fn smallest_singular_value(r: &Trapezoid, n: usize, seed: u64) -> f64
     }
     let mut x = random::uniform(n, seed, STREAM);
     r.clear_dead(&mut x);
-    // Sums of logarithms, because the powers of 1/σ in ‖A^q·x‖ overflow.
+    // The logarithms are summed, because the powers of 1/σ in ‖A^q·x‖ overflow.
     let mut logarithm = [0.0_f64; REFLECTORS_WIDTH];
     for _ in 0..SOLVES {
         r.solve_normal(&mut x);

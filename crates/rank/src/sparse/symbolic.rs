@@ -1,11 +1,10 @@
 //! The sequence of fronts of a factorisation, determined from the pattern alone.
 //!
-//! A *front* is a small dense matrix of all entries that involve the bodies eliminated in it: rows
-//! of C that have not occurred before, and the remainders of the fronts below. Its columns are
-//! those of its own bodies, the *pivots*, followed by the columns of the bodies connected to them
-//! at that time. The first of these connected bodies is eliminated in the front above, so fronts
-//! form a tree. A small front is merged into the front above it, because a few zeros cost less than
-//! a separate front.
+//! A *front* is a small dense matrix of all entries that involve the bodies eliminated in it. A
+//! front consists of rows of C that have not occurred before, and of the remainders of the fronts
+//! below. The columns of a front are the columns of its own bodies, the *pivots*, followed by the
+//! columns of the bodies connected to the pivots at that time. The first of these connected bodies
+//! is eliminated in the front above, so fronts a separate front.
 //!
 //! Source: J. W. H. Liu, On general row merging schemes for sparse Givens transformations, SIAM J.
 //! Sci. Stat. Comput. 7 (1986) 1190–1211, for the tree; T. A. Davis, Algorithm 915: SuiteSparseQR,
@@ -17,7 +16,7 @@ use std::ops::Range;
 use crate::structure::{partition, within};
 use linalg::{EliminationTree, SparseMatrix};
 
-/// The stored factor; the other one is not stored.
+/// The factor that is stored; the other factor is not stored.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum KeptFactor {
     Q,
@@ -39,21 +38,21 @@ pub(super) struct Symbolic {
     pub(super) row_blocks: Vec<Range<usize>>,
     /// Rows without entries, which belong to no front.
     pub(super) empty_rows: Vec<usize>,
-    /// The fronts, each after all fronts below it. The children of a front come directly before it,
-    /// with their descendants.
+    /// The fronts. Each front comes after all fronts below it, and the children of a front come
+    /// directly before it, together with their descendants.
     pub(super) fronts: Vec<Front>,
 }
 
-/// A front without values.
+/// A front without the values of its entries.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub(super) struct Front {
     /// Index after the last column of each body among the pivots.
     pub(super) ends: Vec<usize>,
     /// Columns of C: first the pivots, then the columns that are eliminated later.
     pub(super) columns: Vec<usize>,
-    /// Rows of C that occur here first.
+    /// Rows of C that first occur in this front.
     pub(super) rows: Vec<usize>,
-    /// Number of fronts whose remainders are assembled here.
+    /// Number of fronts whose remainders are assembled in this front.
     pub(super) children: usize,
 }
 
@@ -113,8 +112,8 @@ impl Symbolic {
 
 impl Symbolic {
     /// Returns the upper bound (bytes) on the memory of a factorisation: the stored factor, and the
-    /// current front with the stored remainders. It assumes fronts of full rank; dependent columns
-    /// add little.
+    /// current front with the stored remainders. The bound assumes fronts of full rank; dependent
+    /// columns add little memory.
     pub(super) fn bytes(&self, wanted: KeptFactor) -> usize {
         let (mut factor, mut waiting, mut most) = (0, 0, 0);
         // Numbers of rows and columns of the stored remainders.
@@ -154,7 +153,7 @@ impl Symbolic {
 const NUMBER: usize = size_of::<f64>();
 const ENTRY: usize = NUMBER + size_of::<usize>();
 
-/// The blocks in which rows have entries; consecutive rows with the same blocks form one set.
+/// The blocks in which rows have entries. Consecutive rows with the same blocks form one set.
 struct BlockSets {
     sets: Vec<Vec<usize>>,
     /// Rows of each set.
@@ -199,10 +198,12 @@ struct Supernode {
 }
 
 /// Merges small fronts, and fronts that fit exactly, into their parents. Returns the fronts in an
-/// order in which the children of each front come directly before it, with their descendants.
+/// order in which the children of each front come directly before the front, with their
+/// descendants.
 fn amalgamate(tree: &EliminationTree, size: impl Fn(usize) -> usize) -> Vec<Supernode> {
     let n = tree.order.len();
-    // Numbers of columns that are eliminated in the front of a node, and of columns of the front.
+    // Numbers of columns that are eliminated in the front of a node, and numbers of all columns of
+    // the front.
     let mut pivots: Vec<usize> = (0..n).map(&size).collect();
     let mut width: Vec<usize> = (0..n)
         .map(|k| pivots[k] + tree.beyond[k].iter().map(|&j| size(j)).sum::<usize>())
@@ -225,7 +226,8 @@ fn amalgamate(tree: &EliminationTree, size: impl Fn(usize) -> usize) -> Vec<Supe
         }
         children[k] = apart;
     }
-    // Parents first, last child first; after reversal, children come directly before their parents.
+    // Parents come first, and the last child comes first. After reversal, children come directly
+    // before their parents.
     let mut reversed = Vec::with_capacity(n);
     let mut open: Vec<usize> = (0..n).filter(|&k| tree.beyond[k].is_empty()).collect();
     while let Some(k) = open.pop() {

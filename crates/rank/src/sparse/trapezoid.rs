@@ -15,7 +15,7 @@ pub(super) struct Trapezoid {
 }
 
 impl Trapezoid {
-    /// Adds a row: the pivot first, then the other non-zero entries.
+    /// Adds a row. The pivot comes first, followed by the other non-zero entries.
     pub(super) fn push(&mut self, entries: impl Iterator<Item = (usize, f64)>) {
         for (column, value) in entries {
             self.column.push(column);

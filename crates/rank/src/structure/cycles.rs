@@ -6,12 +6,12 @@ use linalg::DisjointSets;
 /// Each set ascends, and the sets are ordered by their first groups. A group that is on no cycle,
 /// or on a single vertex, is a separate set.
 ///
-/// In mechanics the vertices are bodies and the ground, and the groups are joints whose rows vanish
-/// on the common rigid motions of their bodies. If two sides have only one body in common, the side
+/// In mechanics the vertices are bodies and the ground. The groups are joints whose rows vanish on
+/// the common rigid motions of their bodies. If two sides have only one body in common, the side
 /// without the ground is in equilibrium by itself. The joints between this side and the common body
 /// transmit no total wrench. Therefore every `z` with `Cᵀ·z = 0` is a sum of vectors with the same
-/// property, each of which is zero outside one set. Each set can thus be analysed separately, and
-/// the redundancy is the sum of the redundancies of the sets.
+/// property, each of which is zero outside one set. Each set can thus be analysed separately. The
+/// redundancy is the sum of the redundancies of the sets.
 ///
 /// ```
 /// use pfaff_rank::cycles;
@@ -45,7 +45,7 @@ pub fn cycles(vertices: usize, groups: &[Vec<usize>]) -> Vec<Vec<usize>> {
 }
 
 /// Edges in compressed adjacency lists. A group on k vertices is stored as a cycle through these
-/// vertices, which remain connected if any one of them is removed.
+/// vertices, which remain connected if any one vertex is removed.
 struct Graph {
     /// Index of the first edge of each vertex (one more entry than vertices), and the edges.
     first: Vec<usize>,
@@ -91,8 +91,8 @@ impl Graph {
 
 /// Depth-first search without recursion.
 struct Search {
-    /// Order in which each vertex was reached, from 1, and the earliest vertex that its subtree
-    /// reaches.
+    /// The order in which each vertex was reached, counted from 1, and the earliest vertex that its
+    /// subtree reaches.
     order: Vec<usize>,
     reach: Vec<usize>,
     /// The next edge to examine.

@@ -1,5 +1,5 @@
-//! The graph of blocks, groups and ground. This file finds its connected parts without the ground,
-//! and its bridges with the ground as a vertex.
+//! The graph of blocks, groups and ground. This file finds the connected parts of the graph without
+//! the ground, and the bridges of the graph with the ground as a vertex.
 
 use linalg::DisjointSets;
 
@@ -54,7 +54,8 @@ struct End {
     edge: usize,
 }
 
-/// Returns groups on exactly two vertices (blocks or the ground) that no other path connects.
+/// Returns groups on exactly two vertices (blocks or the ground) that are not connected by any
+/// other path.
 ///
 /// A depth-first search finds the earliest vertex that each subtree reaches. An edge is a bridge
 /// iff no edge connects the subtree below it with an earlier vertex. A group on more than two

@@ -17,7 +17,7 @@ pub struct RowGroup {
     pub ground: bool,
 }
 
-/// Blocks and groups that are independent of the others.
+/// Blocks and groups that are independent of all other blocks and groups.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Part {
@@ -39,7 +39,7 @@ pub(super) struct Incidence {
     pub(super) groups: Vec<Group>,
     /// Blocks that each row touches, ascending.
     pub(super) touches: Vec<Vec<usize>>,
-    /// Rows not settled yet.
+    /// Whether each row is not settled yet.
     pub(super) active: Vec<bool>,
 }
 
@@ -91,7 +91,7 @@ impl Incidence {
         rows.filter(|&row| self.active[row]).collect()
     }
 
-    /// Blocks that the remaining rows of a group touch, ascending.
+    /// Returns the blocks that the remaining rows of a group touch, ascending.
     pub(super) fn blocks_of(&self, group: usize) -> Vec<usize> {
         let rows = self.remaining(group);
         let mut blocks: Vec<usize> = rows
@@ -109,8 +109,8 @@ pub(crate) fn within(n: usize, ranges: &[Range<usize>]) -> impl Iterator<Item = 
     ranges.iter().map(move |r| r.start.min(n)..r.end.min(n))
 }
 
-/// Splits `0..n` by sets (an index belongs to the first set that contains it), followed by one set
-/// for each index outside all sets.
+/// Splits `0..n` by sets. An index belongs to the first set that contains it. The result ends with
+/// one set for each index outside all sets.
 pub(crate) fn partition(
     n: usize,
     given: impl Iterator<Item = impl IntoIterator<Item = usize>>,

@@ -4,8 +4,8 @@
 use super::*;
 use crate::{decide, orthonormal};
 
-/// A pin between bodies in the plane, each with three columns. Points and lines are given in global
-/// components, so that the rigid motions are (1, 0, −y), (0, 1, x) for every body.
+/// Adds a pin between bodies in the plane, each with three columns. Points and lines are given in
+/// global components, so that the rigid motions are (1, 0, −y), (0, 1, x) for every body.
 fn pin(c: &mut Vec<Vec<f64>>, n: usize, pair: [Option<usize>; 2], at: [f64; 2]) -> Vec<usize> {
     let first = c.len();
     for k in 0..2 {
@@ -25,9 +25,9 @@ fn matrix(rows: &[Vec<f64>]) -> Matrix {
     Matrix::from_fn(rows.len(), rows[0].len(), |i, j| rows[i][j])
 }
 
-/// Random pins between bodies and ground: every settled row or group is compared with the null
-/// space of the whole, and every open part analysed separately is compared with the same rows of
-/// the whole.
+/// Creates random pins between bodies and the ground. Every settled row or group is compared with
+/// the null space of the whole matrix. Every open part is analysed separately and compared with the
+/// same rows of the whole matrix.
 #[test]
 fn what_is_settled_is_true_and_parts_are_independent() {
     let mut state = 7_u64;
@@ -107,7 +107,7 @@ fn what_is_settled_is_true_and_parts_are_independent() {
     );
 }
 
-/// A closed loop of three bars with a redundant bar is connected to the ground by one pin: no body
+/// A closed loop of three bars with a redundant bar is connected to the ground by one pin. No body
 /// can be peeled, and the pin is a bridge.
 #[test]
 fn a_bridge_that_peeling_cannot_find() {
@@ -142,8 +142,8 @@ fn a_bridge_that_peeling_cannot_find() {
     assert_eq!(careful.groups[0], StructureVerdict::Open(0));
 }
 
-/// Entries that are rounding relative to their row do not lead to peeling: block 1 has only an
-/// entry of 1e-17 in row 1, which otherwise repeats row 0.
+/// Entries that are rounding errors relative to their row do not lead to peeling. Block 1 has only
+/// an entry of 1e-17 in row 1. Apart from this entry, row 1 repeats row 0.
 #[test]
 fn rounding_does_not_peel() {
     let c = Matrix::from_rows(&[[1.0, 0.0, 0.0], [1.0, 1e-17, 0.0], [0.0, 1.0, 1.0]]);
@@ -155,7 +155,7 @@ fn rounding_does_not_peel() {
     assert_eq!(found.rows, [StructureVerdict::Open(0); 3]);
 }
 
-/// Unusual input: a row of zeros is a dependency by itself, ranges are truncated, and rows and
+/// Tests unusual input. A row of zeros is a dependency by itself. Ranges are truncated. Rows and
 /// columns outside all ranges form separate sets.
 #[test]
 fn odd_input_has_an_answer() {
@@ -185,8 +185,8 @@ fn odd_input_has_an_answer() {
     assert!(empty.parts.is_empty());
 }
 
-/// Test by definition, for every pair: two groups belong to one set iff the rest of both stays
-/// connected after removal of any vertex, or they connect the same vertices.
+/// Tests every pair according to the definition. Two groups belong to one set iff they connect the
+/// same vertices, or the other parts of both groups stay connected after removal of any vertex.
 #[test]
 fn cycles_are_what_no_single_vertex_separates() {
     let mut seed = 5_u64;

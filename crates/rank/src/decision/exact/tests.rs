@@ -26,7 +26,7 @@ fn integers(c: &Matrix) -> Vec<Vec<BigInt>> {
         .collect()
 }
 
-/// Rank by Bareiss' elimination.
+/// Returns the rank by Bareiss' elimination.
 fn oracle_rank(mut a: Vec<Vec<BigInt>>) -> usize {
     let (m, n) = (a.len(), a.first().map_or(0, Vec::len));
     let mut previous = BigInt::from(1);
@@ -49,7 +49,7 @@ fn oracle_rank(mut a: Vec<Vec<BigInt>>) -> usize {
 }
 
 /// Checks all results of a decision against the oracle: the rank, the kept rows, the zeros of T,
-/// and its values.
+/// and the values of T.
 fn check(c: &Matrix) -> RankDecision {
     let decision = certify_exact(c).unwrap();
     let a = integers(c);
@@ -184,8 +184,8 @@ fn kahan_has_full_rank_and_a_copy_of_its_last_row_is_seen() {
     assert!(kahan90.evidence.certificate.unwrap().sigma_bound > 0.0);
 }
 
-/// det [[1, 1], [1, 2⁶¹]] = 2⁶¹ − 1 is a prime that many programs use. Modulo this prime the
-/// determinant is zero.
+/// The determinant of [[1, 1], [1, 2⁶¹]] is 2⁶¹ − 1, which is a prime that many programs use.
+/// Modulo this prime the determinant is zero.
 #[test]
 fn powers_of_two_are_no_trap() {
     for c in [
@@ -197,8 +197,8 @@ fn powers_of_two_are_no_trap() {
     }
 }
 
-/// If the misalignment decreases from 1e-8 to 1e-300, the kept rows remain independent and T stays
-/// accurate.
+/// If the misalignment decreases from 1e-8 to 1e-300, the kept rows remain independent, and T
+/// remains accurate.
 #[test]
 fn near_redundancy_beside_exact_redundancy() {
     for k in [8, 10, 12, 14, 16, 18, 20, 27, 29, 31, 40, 100, 300] {
@@ -275,7 +275,7 @@ fn extreme_entries_and_shapes() {
     assert!(ExactNullSpace::new(&nan).is_err());
 }
 
-/// Many more rows than columns, all in general position: every T is dense.
+/// A matrix with many more rows than columns, all in general position. Every T is dense.
 #[test]
 fn tall_matrices() {
     let mut numbers = Numbers(5);
@@ -299,8 +299,8 @@ fn cranks_as_they_stand() {
     assert!(decision.nearly_redundant().is_none());
 }
 
-/// Blocks whose determinants are the first two primes. They are regular, but not modulo these
-/// primes.
+/// Blocks whose determinants are the first two primes. The blocks are regular, but they are not
+/// regular modulo these primes.
 #[test]
 fn primes_that_divide_a_determinant_are_outvoted() {
     let mut c = Matrix::zeros(4, 4);

@@ -12,8 +12,8 @@ fn grounds(decision: &RankDecision) -> Grounds {
     decision.evidence.certificate.as_ref().unwrap().grounds
 }
 
-/// Cranks with exact 3–4–5 angles in double-double; the foot of the third one is displaced by ε
-/// across the others.
+/// Cranks with exact 3–4–5 angles in double-double. The foot of the third crank is displaced by ε
+/// across the other feet.
 fn cranks(epsilon: f64) -> DdMatrix {
     let mut c = DdMatrix::from(&parallel_cranks(1.0, 0.0));
     let (sin, cos) = (Dd::from(3.0) / Dd::from(5.0), Dd::from(4.0) / Dd::from(5.0));
@@ -64,8 +64,9 @@ fn what_the_data_hide_is_undecided() {
     );
 }
 
-/// A rank below that of the entries, decided from data within their uncertainty, although the
-/// entries themselves have no rounding errors. In this case, their zeros prove nothing.
+/// The rank is lower than the rank of the entries, and it is decided from data within their
+/// uncertainty. The entries themselves have no rounding errors. In this case, the zeros of the
+/// entries prove nothing.
 #[test]
 fn a_lower_rank_within_the_data_is_not_exact() {
     let rows = Matrix::from_rows(&[[1.0, 0.0]]);
@@ -89,8 +90,9 @@ fn a_lower_rank_within_the_data_is_not_exact() {
     assert!(!decision(0, Grounds::WithinData).is_exact());
 }
 
-/// Values of numerics.md, 2.1. Exactly redundant: 8e-18 / 4e-34. Misaligned by 1e-13: the same at
-/// every precision. Misaligned by 1e-20: visible with 32 digits.
+/// The values are those of numerics.md, 2.1. If a row is exactly redundant, the values are 8e-18
+/// and 4e-34. If the misalignment is 1e-13, the value is the same at every precision. A
+/// misalignment of 1e-20 is visible with 32 digits.
 #[test]
 fn exact_redundancy_falls_with_the_precision_and_misalignment_stays() {
     let decision = certify_within(&cranks(0.0), crate::Accuracy::Absolute(DATA)).unwrap();
@@ -248,7 +250,7 @@ fn shapes_and_bad_input() {
     ));
 }
 
-/// Rows (1, 1 − e) and (1 − e, 1): the eigenvalues are 2 − e and e.
+/// The rows (1, 1 − e) and (1 − e, 1). The eigenvalues are 2 − e and e.
 fn nearly_parallel(e: f64) -> DdMatrix {
     let mut c = DdMatrix::from(&Matrix::from_rows(&[[1.0; 2]; 2]));
     c[(0, 1)] -= Dd::from(e);
@@ -289,8 +291,8 @@ fn a_singular_value_clears_the_data_by_four() {
     }
 }
 
-/// Rows a, b, a of [`nearly_parallel`], with σ₂ = 2e/√3. With data of accuracy u, the coefficients
-/// are undecided within √6·u/σ₂, unless σ₂ is below 1e-6.
+/// The rows a, b, a of [`nearly_parallel`], with σ₂ = 2e/√3. If the accuracy of the data is u, the
+/// coefficients are undecided within √6·u/σ₂, unless σ₂ is below 1e-6.
 #[test]
 fn coefficients_of_a_nearly_redundant_matrix_are_as_read() {
     for (e, is_as_read) in [(0.5e-6, true), (2e-6, false)] {

@@ -1,11 +1,11 @@
-//! Closed forms and products that a factorisation must reproduce.
+//! Tests with closed forms, and with products that a factorisation must reproduce.
 
 use super::*;
 use crate::sparse::reflectors::Lanes;
 use crate::sparse::smallest::smallest_singular_value;
 use linalg::{Matrix, singular_values};
 
-/// Rows on neighbouring bodies of a ring; the last two rows of each body are sums of others.
+/// Rows on neighbouring bodies of a ring. The last two rows of each body are sums of other rows.
 fn ring(bodies: usize) -> Matrix {
     Matrix::from_fn(4 * bodies, 3 * bodies, |i, j| {
         let (body, row) = (i / 4, i % 4);
@@ -79,7 +79,8 @@ fn q_is_orthogonal_and_its_last_columns_annihilate_c() {
 #[test]
 fn the_smallest_singular_value_is_bounded_from_below() {
     for bodies in [2, 4, 20] {
-        // Three independent rows for each body, without the last bodies: full row rank.
+        // Three independent rows for each body except the last bodies. The matrix has full row
+        // rank.
         let all = ring(bodies);
         let rows: Vec<usize> = (0..all.nrows()).filter(|i| i % 4 != 3).collect();
         let c = all.select_rows(&rows);

@@ -1,4 +1,4 @@
-//! Evaluates the evidence of a sparse rank: for the rank, and for each row.
+//! Evaluates the evidence of a sparse rank, for the rank and for each row.
 
 use super::{SparseEvidence, SparseRank};
 use crate::decision::{coefficient_noise, required, shown, tolerance};
@@ -21,9 +21,9 @@ impl SparseRank {
         kernels::norm(self.sketch.row(i))
     }
 
-    /// Classifies the margin of row i: whether its multiplier is unique. Margins within the noise
-    /// are zero if they are smaller than all other margins by a factor of 10⁴. Otherwise they are
-    /// unclear.
+    /// Classifies the margin of row i, which shows whether the multiplier of the row is unique.
+    /// Margins within the noise are zero if they are smaller than all other margins by a factor of
+    /// 10⁴. Otherwise they are unclear.
     ///
     /// # Panics
     /// Panics if `i` is not a row.
@@ -41,7 +41,7 @@ impl SparseRank {
     }
 
     /// Returns a bound on the error (norm) of a row of W. The part of W outside the left null space
-    /// is at most ‖Cᵀ·W‖/σ_r; in addition, W differs from that of the intended matrix by the
+    /// is at most ‖Cᵀ·W‖/σ_r. In addition, W differs from the W of the intended matrix by the
     /// uncertainty divided by σ_r.
     pub fn noise(&self) -> f64 {
         let e = &self.evidence;
@@ -49,7 +49,7 @@ impl SparseRank {
         coefficient_noise(known, e.sigma_r)
     }
 
-    /// Returns the largest margin within the noise, and the smallest above it.
+    /// Returns the largest margin within the noise, and the smallest margin above the noise.
     pub(super) fn margins(&self) -> (f64, f64) {
         let noise = self.noise();
         let (mut zero, mut other) = (0.0_f64, f64::INFINITY);

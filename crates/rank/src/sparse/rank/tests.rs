@@ -25,8 +25,8 @@ impl Dice {
     }
 }
 
-/// Groups of one to three rows on one to three bodies, followed by rows that are combinations or
-/// copies of others.
+/// Creates groups of one to three rows on one to three bodies, followed by rows that are
+/// combinations or copies of these rows.
 fn planted(dice: &mut Dice) -> (Matrix, Vec<Range<usize>>, Vec<Range<usize>>) {
     let bodies = 1 + dice.below(7);
     let n = 3 * bodies;
@@ -114,8 +114,8 @@ fn planted_matrices_read_as_by_the_dense_code() {
                 assert_eq!(reading, CoefficientReading::Zero, "{case}: {i} {margin:e}");
             }
         }
-        // The left null space of each group is the same: the ranks are equal, also if they are
-        // combined.
+        // The left null space of each group is the same. The ranks of the groups are equal, and the
+        // ranks of combined groups are equal, too.
         for group in groups {
             let rows: Vec<usize> = group.collect();
             let (z_j, w_j) = (z.select_rows(&rows), found.sketch.select_rows(&rows));
@@ -133,8 +133,8 @@ fn planted_matrices_read_as_by_the_dense_code() {
     assert!(redundant > 100, "{redundant} redundant");
 }
 
-/// A row with a change of 1e-17 … 1, and columns in units of 1e±8. The result may be undecided if
-/// the dense code decides, but must not contradict it.
+/// A row with a change of 1e-17 … 1, and columns in units of 1e±8. The result may be undecided
+/// where the dense code decides, but it must not contradict the dense code.
 #[test]
 fn nearly_dependent_rows_are_never_misread() {
     let mut dice = Dice(0x0fed_cba9_8765_4321);
@@ -215,7 +215,7 @@ fn trivial_matrices() {
 
 #[test]
 fn columns_and_rows_without_entries_do_not_count() {
-    // Blocks beyond the matrix, no blocks, and blocks without columns.
+    // Blocks outside the matrix, an empty list of blocks, and blocks without columns.
     let c = Matrix::from_rows(&[
         [0.0, 1.0, 0.0, 2.0, 0.0],
         [0.0; 5],
@@ -232,8 +232,8 @@ fn columns_and_rows_without_entries_do_not_count() {
     }
 }
 
-/// W. Kahan's triangle: ones on the diagonal, −c above. No column is small, but σ_n decreases like
-/// (1 + c)^−n.
+/// The triangle of W. Kahan has ones on the diagonal and −c above it. No column is small, but σ_n
+/// decreases like (1 + c)^−n.
 #[test]
 fn kahan_is_undecided_or_right() {
     let mut undecided = 0;
@@ -263,7 +263,7 @@ fn kahan_is_undecided_or_right() {
 
 #[test]
 fn a_singular_value_between_is_undecided() {
-    // Two rows at an angle of δ: singular values √2 and δ/√2.
+    // Two rows at an angle of δ have the singular values √2 and δ/√2.
     let status = |delta: f64| {
         let c = Matrix::from_rows(&[[1.0, 0.0], [1.0, delta]]);
         let c = SparseMatrix::from_dense(&c);
@@ -358,7 +358,7 @@ fn more_combinations_than_a_batch() {
     };
     let c = SparseMatrix::from_dense(&c);
     let found = decide_sparse(&c, 0.0, &[], wanted).expect("finite");
-    // sin(3i + j) in j spans two dimensions: sin and cos of 3i.
+    // The functions sin(3i + j) of j span two dimensions: sin 3i and cos 3i.
     assert_eq!((found.rank, found.redundancy), (2, 10));
     assert_eq!((found.sketch.ncols(), rank_of(&found.sketch)), (19, 10));
 }
