@@ -27,7 +27,7 @@ impl Dyadic {
         }
     }
 
-    /// Returns the exponent of the odd mantissa; `None` for zero.
+    /// Returns the exponent of the odd mantissa, or `None` for zero.
     #[must_use]
     pub fn exponent(&self) -> Option<i64> {
         (!self.is_zero()).then_some(self.exponent)

@@ -4,15 +4,15 @@ use num_bigint::BigInt;
 use num_traits::{One, Zero};
 
 /// Transforms the first `columns` columns to echelon form by exchanging rows and adding multiples
-/// of rows to others. Returns the rank r of these columns, and the transformed rows. The first r
-/// rows are the pivot rows; in the other rows, the first `columns` entries are zero.
+/// of rows to other rows. Returns the rank r of these columns, and the transformed rows. The first
+/// r rows are the pivot rows. In the other rows, the first `columns` entries are zero.
 ///
 /// Source: E. H. Bareiss, Sylvester's identity and multistep integer-preserving Gaussian
 /// elimination, Math. Comp. 22 (1968): all entries remain minors of the matrix,
 /// `row ← (d_k·row − b·pivot row)/d_{k−1}`. In this implementation, a row does not change while its
-/// b is zero. A row that last changed after ℓ steps has the divisor `d_ℓ`; before it is used as a
-/// pivot row, it is converted to the divisor `d_{k−1}`. Sparse matrices stay sparse, and their
-/// entries stay small.
+/// b is zero. A row that last changed after ℓ steps has the divisor `d_ℓ`. Before such a row is
+/// used as a pivot row, it is converted to the divisor `d_{k−1}`. Sparse matrices stay sparse, and
+/// their entries stay small.
 pub(super) fn eliminate(mut rows: Vec<Vec<BigInt>>, columns: usize) -> (usize, Vec<Vec<BigInt>>) {
     let mut determinants = vec![BigInt::one()];
     let mut steps = vec![0; rows.len()];

@@ -18,12 +18,12 @@ use crate::elimination::eliminate;
 /// ```
 #[derive(Clone, Debug)]
 pub struct Exact {
-    /// Integers. Row i of the matrix is row i of these integers times `2^row_exponents[i]`, with
-    /// each column multiplied by a power of two.
+    /// The rows as integers. Row i of the matrix is row i of these integers times
+    /// `2^row_exponents[i]`, with each column multiplied by a power of two.
     rows: Vec<Vec<BigInt>>,
     row_exponents: Vec<i64>,
     rank: usize,
-    /// Basis of the vectors z with `zᵀ·rows = 0`, one vector per row.
+    /// Basis of the vectors z with `zᵀ·rows = 0`, one vector in each row.
     z: Vec<Vec<BigInt>>,
 }
 
@@ -63,7 +63,7 @@ impl Exact {
     fn of_scaled(rows: Vec<Vec<BigInt>>, row_exponents: Vec<i64>) -> Self {
         let m = rows.len();
         let n = rows.first().map_or(0, Vec::len);
-        // The right part records the row combinations that make the left part zero.
+        // The right part records the row combinations that reduce the left part to zero.
         let with_identity = rows.iter().enumerate().map(|(i, row)| {
             let identity = (0..m).map(|l| BigInt::from(u8::from(l == i)));
             row.iter().cloned().chain(identity).collect()
@@ -84,7 +84,7 @@ impl Exact {
         self.rank
     }
 
-    /// Returns whether row `i` belongs to no dependency, that is `Z_i = 0`.
+    /// Returns whether row `i` belongs to no dependency, that is, whether `Z_i = 0`.
     #[must_use]
     pub fn row_is_unique(&self, i: usize) -> bool {
         self.z.iter().all(|z| z[i].is_zero())
@@ -98,7 +98,7 @@ impl Exact {
         &self.z
     }
 
-    /// Returns whether `ℓᵀ·λ` is unique, that is `ℓᵀ·Z = 0`, for a matrix with integer entries.
+    /// Returns whether `ℓᵀ·λ` is unique (`ℓᵀ·Z = 0`), for a matrix with integer entries.
     #[must_use]
     pub fn determines(&self, l: &[BigInt]) -> bool {
         let product = |z: &Vec<BigInt>| z.iter().zip(l).map(|(z, l)| z * l).sum::<BigInt>();
@@ -125,7 +125,7 @@ impl Exact {
         eliminate(self.z.iter().map(z_x).collect(), rows.len()).0
     }
 
-    /// Returns whether `ℓᵀ·λ` is unique, that is `ℓᵀ·Z = 0`.
+    /// Returns whether `ℓᵀ·λ` is unique, that is, whether `ℓᵀ·Z = 0`.
     ///
     /// # Panics
     /// Panics if a coefficient is not finite.
@@ -176,7 +176,7 @@ fn whole(matrix: &[Vec<Dyadic>]) -> (Vec<Vec<BigInt>>, Vec<i64>) {
 /// values. More sweeps would not change the result, only the time of the later steps.
 const SWEEPS: usize = 12;
 
-/// Returns the mean of the values for each index.
+/// Returns the mean of the values that belong to each index.
 fn means(n: usize, values: impl Iterator<Item = (usize, i64)>) -> Vec<i64> {
     let mut sums = vec![(0, 0); n];
     for (place, value) in values {

@@ -121,8 +121,8 @@ fn back_substituted(rows: &[Vec<BigInt>]) -> Vec<f64> {
 fn quotient(x: &BigInt, y: &BigInt) -> f64 {
     let is_negative = (x < &BigInt::zero()) != (y < &BigInt::zero());
     let (x, y) = (x.magnitude(), y.magnitude());
-    // Uses the first 64 or 65 bits of the quotient. The last bit is set if further digits follow,
-    // which is sufficient to round once.
+    // The computation uses the first 64 or 65 bits of the quotient. The last bit is set if further
+    // digits follow, which is sufficient to round once.
     let shift = 64 + y.bits() as i64 - x.bits() as i64;
     let scaled = |x: &BigUint, by: i64| if by > 0 { x << by } else { x.clone() };
     let (x, y) = (scaled(x, shift), scaled(y, -shift));
