@@ -5,8 +5,8 @@ mod limits;
 use limits::{LEAST_COSINE, SERIES_UP_TO};
 
 /// Returns the derivative of this order of `θ/sin θ` with respect to c = cos θ, for 0 ≤ θ ≤ 3. With
-/// x = (1 − c)/2 it is `(−½)ⁿ·(n!)²/(3/2)ₙ · ₂F₁(n + 1, n + 1; n + 3/2; x)`. At c = 1, the value
-/// (order 0) is 1. The result is NaN beyond θ = 3.
+/// x = (1 − c)/2, the derivative is `(−½)ⁿ·(n!)²/(3/2)ₙ · ₂F₁(n + 1, n + 1; n + 3/2; x)`. At c = 1,
+/// the value (order 0) is 1. The result is NaN beyond θ = 3.
 ///
 /// Source: θ/sin θ = ₂F₁(1, 1; 3/2; sin² ½θ) (NIST DLMF 15.4.13 with 15.8.18), and
 /// `(1 − c²)·f⁽ⁿ⁺¹⁾ = (2n + 1)·c·f⁽ⁿ⁾ + n²·f⁽ⁿ⁻¹⁾` from `(1 − c²)·f′ = c·f − 1`.
@@ -46,8 +46,8 @@ fn series(x: f64, order: u8) -> f64 {
     let mut k = 0.0;
     loop {
         let next = sum + term;
-        // From some k onwards, terms decrease by a factor below 1. The sum ends if a term is zero
-        // or negligible.
+        // From some k onwards, each term is smaller than the previous term by a factor below 1. The
+        // sum ends if a term is zero or negligible.
         if next == sum || !next.is_finite() {
             return next;
         }
@@ -84,8 +84,8 @@ mod tests {
         assert!((angle_over_sine(1.0 + 1e-15, 0) - 1.0).abs() < 1e-15);
     }
 
-    /// At c = 1 the values are −1/3, 4/15, −12/35; each derivative is the slope of the previous
-    /// one.
+    /// At c = 1 the values are −1/3, 4/15, −12/35. Each derivative is the slope of the previous
+    /// derivative.
     #[test]
     fn derivatives() {
         assert!((angle_over_sine(1.0, 1) + 1.0 / 3.0).abs() < ROUNDINGS);
