@@ -1,7 +1,7 @@
-//! Straight-line code, built operation by operation. Operations whose result is known are folded:
-//! operations on constants, with zeros and ones, changes of sign, and `x − x`. Terms are not
-//! regrouped, so that the order of operations, which determines the rounding, is that of the
-//! caller.
+//! Straight-line code, built operation by operation. Operations whose result is known are folded.
+//! These are operations on constants, operations with zeros and ones, changes of sign, and `x − x`.
+//! Terms are not regrouped. The caller therefore determines the order of operations, and with it
+//! the rounding.
 
 use rotation::angle_over_sine;
 
@@ -67,7 +67,7 @@ impl Program {
         self.push(Op::Number(if x == 0.0 { 0.0_f64 } else { x }.to_bits()))
     }
 
-    /// Returns the constant that a handle refers to, if it is one.
+    /// Returns the constant that a handle refers to, if the handle refers to a constant.
     #[must_use]
     pub fn as_number(&self, v: Value) -> Option<f64> {
         match self.op(v) {
@@ -166,7 +166,8 @@ impl Program {
         }
     }
 
-    /// Adds the quotient `a / b`; if `b` is a constant, it is the product with its reciprocal.
+    /// Adds the quotient `a / b`. If `b` is a constant, the product with its reciprocal is added
+    /// instead.
     pub fn div(&mut self, a: Value, b: Value) -> Value {
         match self.as_number(b) {
             Some(y) if y != 0.0 => {
@@ -203,7 +204,7 @@ impl Program {
     }
 
     /// Returns the values of the outputs if each input has the value `input(symbol)`. The values
-    /// equal the results of the printed code bit for bit.
+    /// are equal to the results of the printed code, bit for bit.
     #[must_use]
     pub fn run(&self, input: impl Fn(Symbol) -> f64) -> Vec<f64> {
         let mut values: Vec<f64> = Vec::with_capacity(self.ops().len());

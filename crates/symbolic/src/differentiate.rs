@@ -1,13 +1,12 @@
-//! Exact derivatives. A derivation is defined by its values for the inputs; all other values follow
-//! from the sum, product and chain rules. A partial derivative, a derivative along a rotation
-//! (`cos ↦ −sin`, `sin ↦ cos`) and a total time derivative differ only in these values for the
-//! inputs.
+//! Exact derivatives. A derivation is defined by its values for the inputs. All other values follow
+//! from the sum, product and chain rules. A partial derivative, a derivative along a rotation (`cos
+//! ↦ −sin`, `sin ↦ cos`) and a total time derivative differ only in the values for the inputs.
 
 use std::collections::{BTreeMap, HashMap};
 
 use crate::graph::{Expr, Function, Graph, Node, Symbol};
 
-/// A derivation `D`, defined by the image `D(s)` of each input; inputs that are not listed are
+/// A derivation `D`, defined by the image `D(s)` of each input. Inputs that are not listed are
 /// constants.
 ///
 /// ```
@@ -103,8 +102,8 @@ impl Derivation {
             Node::Call(f, u) => {
                 let du = self.derive(g, u, done);
                 let outer = match f {
-                    // The value is zero at zero, so that the length of a vector has a finite
-                    // derivative where it vanishes.
+                    // The value is zero at zero. Therefore the length of a vector has a finite
+                    // derivative if the vector is zero.
                     Function::Sqrt => {
                         let recip = g.call(Function::RecipOrZero, e);
                         g.product(0.5, &[(recip, 1)])

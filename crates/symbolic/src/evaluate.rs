@@ -1,5 +1,5 @@
-//! Direct evaluation of an expression for any numeric type. It is used for constants of
-//! definitions, and as the reference in tests of printed code.
+//! Direct evaluation of an expression for any numeric type. Direct evaluation is used for constants
+//! of definitions, and as the reference in tests of printed code.
 
 use std::collections::HashMap;
 use std::ops::{Add, Div, Mul, Neg};

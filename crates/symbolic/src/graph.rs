@@ -11,7 +11,7 @@
 //! coefficients are not binary fractions, two groupings of the same constants may differ in the
 //! last digit, and are then two different expressions.
 //!
-//! Because common factors are moved out of sums, the derivatives of a rotated arm are the same
+//! Common factors are moved out of sums. Therefore the derivatives of a rotated arm are the same
 //! nodes as the arm itself.
 
 use std::collections::HashMap;
@@ -20,7 +20,7 @@ use rotation::angle_over_sine;
 
 use crate::order;
 
-/// Handle of an expression; in one [`Graph`], equal handles mean equal expressions.
+/// Handle of an expression. In one [`Graph`], equal handles mean equal expressions.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct Expr(u32);
 
@@ -29,7 +29,7 @@ pub struct Expr(u32);
 pub struct Symbol(u32);
 
 impl Symbol {
-    /// Returns the index among the inputs of its graph, in the order of first use.
+    /// Returns the index of the input among the inputs of its graph, in the order of first use.
     #[must_use]
     pub fn index(self) -> usize {
         self.0 as usize
@@ -45,10 +45,11 @@ pub enum Function {
     Sin,
     /// The cosine `cos u`.
     Cos,
-    /// The reciprocal `1/u`, and 0 for `u = 0`: the direction of a vector of length zero counts as
-    /// zero.
+    /// The reciprocal `1/u`, and 0 for `u = 0`. With this rule, the direction of a vector of length
+    /// zero is zero.
     RecipOrZero,
-    /// The derivative of this order of θ/sin θ with respect to u = cos θ, see [`angle_over_sine`].
+    /// The derivative of the given order of θ/sin θ with respect to u = cos θ, see
+    /// [`angle_over_sine`].
     AngleOverSine(u8),
 }
 
@@ -59,8 +60,8 @@ pub enum Node {
     Number(f64),
     /// A named input.
     Symbol(Symbol),
-    /// A sum `Σ coefficient · term` with at least two terms, sorted, the first coefficient
-    /// positive. A constant term is a multiple of the number 1.
+    /// A sum `Σ coefficient · term` with at least two terms. The terms are sorted, and the first
+    /// coefficient is positive. A constant term is a multiple of the number 1.
     Sum(Vec<(f64, Expr)>),
     /// A product `coefficient · Π base^exponent`, sorted.
     Product(f64, Vec<(Expr, i32)>),
@@ -139,7 +140,7 @@ impl Graph {
         *known.expect("an input of this graph")
     }
 
-    /// Returns the input that a handle refers to, if it is one.
+    /// Returns the input that a handle refers to, if the handle refers to an input.
     #[must_use]
     pub fn as_symbol(&self, e: Expr) -> Option<Symbol> {
         match self.node(e) {
@@ -148,7 +149,7 @@ impl Graph {
         }
     }
 
-    /// Returns the constant that a handle refers to, if it is one.
+    /// Returns the constant that a handle refers to, if the handle refers to a constant.
     #[must_use]
     pub fn as_number(&self, e: Expr) -> Option<f64> {
         match self.node(e) {
@@ -340,7 +341,7 @@ impl Graph {
         }
     }
 
-    /// Replaces nested sums by their terms if one of these cancels exactly against a term
+    /// Replaces nested sums by their terms if one of these terms cancels exactly against a term
     /// elsewhere.
     fn open_cancelling_sums(&mut self, list: &mut Vec<(f64, Expr)>) {
         loop {
@@ -426,8 +427,8 @@ impl Graph {
     }
 }
 
-/// Returns `xᵏ` by squaring, with the same bits on every machine, which `f64::powi` does not
-/// guarantee.
+/// Returns `xᵏ` by squaring. The result has the same bits on every machine, which `f64::powi` does
+/// not guarantee.
 fn power(x: f64, k: i32) -> f64 {
     let (mut result, mut square, mut rest) = (1.0, x, k.unsigned_abs());
     while rest > 0 {

@@ -53,8 +53,8 @@ impl Program {
         sum.expect("a sum in canonical form has at least two terms")
     }
 
-    /// Computes powers first, so that a square is shared, then at most one quotient, and the sign
-    /// last.
+    /// Computes powers first, so that a square is shared. At most one quotient follows, and the
+    /// sign comes last.
     fn lower_product(&mut self, g: &Graph, c: f64, factors: &[(Expr, i32)]) -> Value {
         let mut numerator = None;
         let mut denominator = None;

@@ -1,5 +1,5 @@
-//! The canonical order of terms and factors. It depends on the structure, not on the order of
-//! construction or on a hash, so that equal expressions are printed as equal bytes.
+//! The canonical order of terms and factors. The order depends on the structure, not on the order
+//! of construction or on a hash. Therefore equal expressions are printed as equal bytes.
 
 use std::cmp::Ordering;
 
@@ -26,7 +26,8 @@ pub(crate) fn compare(g: &Graph, a: Expr, b: Expr) -> Ordering {
     }
 }
 
-/// Compares two terms in the order of the terms of a sum: like [`compare`], with a constant last.
+/// Compares two terms in the order of the terms of a sum. The order is that of [`compare`], with a
+/// constant last.
 pub(crate) fn compare_terms(g: &Graph, a: Expr, b: Expr) -> Ordering {
     let constant = |e| g.as_number(e).is_some();
     constant(a).cmp(&constant(b)).then_with(|| compare(g, a, b))

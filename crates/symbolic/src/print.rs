@@ -61,7 +61,7 @@ impl<'a> Printer<'a> {
 
     /// Returns the `let` statements, and the expression of each output.
     ///
-    /// A name that would hide an input or an earlier `let` is not used.
+    /// A name is not used if it would hide an input or an earlier `let`.
     ///
     /// # Panics
     /// Panics if the name of an input or of an expression is not a Rust identifier.
@@ -77,8 +77,8 @@ impl<'a> Printer<'a> {
             }
             let v = self.program.value_at(k);
             let name = match self.names.get(&v) {
-                // A named value that is used once inside another one is nevertheless easier to read
-                // under its name.
+                // A named value that is used once inside another value is nevertheless easier to
+                // read under its name.
                 Some(name)
                     if self.uses[k] > 0 && !self.is_only_output(v) && !taken.contains(name) =>
                 {
@@ -155,8 +155,8 @@ impl<'a> Printer<'a> {
             }
             Op::Binary(kind, a, b) => {
                 let (left, right, strength) = match kind {
-                    // A sum on the right keeps its parentheses: a + (b + c) must be rounded in this
-                    // order.
+                    // A sum on the right keeps its parentheses, because a + (b + c) must be rounded
+                    // in this order.
                     Binary::Add | Binary::Sub => (Strength::Sum, Strength::Product, Strength::Sum),
                     // A product or quotient on the right keeps its parentheses, for the same
                     // reason.
@@ -207,7 +207,7 @@ impl<'a> Printer<'a> {
     }
 }
 
-/// Returns the name of a function, and the order of its derivative as the second argument.
+/// Returns the name of a function. The order of its derivative is the second argument.
 fn function_name(f: Function) -> (&'static str, Option<u8>) {
     match f {
         Function::Sqrt => ("sqrt", None),

@@ -163,8 +163,8 @@ impl Program {
         counts
     }
 
-    /// Returns the handle of an operation. If the program already contains the operation, this is
-    /// the existing handle.
+    /// Returns the handle of an operation. If the program already contains the operation, its
+    /// existing handle is returned.
     pub(crate) fn push(&mut self, op: Op) -> Value {
         if let Some(&v) = self.table.get(&op) {
             return v;
