@@ -1,12 +1,12 @@
-//! Defines when rows count as violated; the criterion is the same for positions, velocities and
+//! Defines when rows count as violated. The criterion is the same for positions, velocities and
 //! accelerations.
 //!
 //! Let z be a dependency of rows, `zᵀ·C = 0`, between one dropped row and the kept rows that imply
-//! it. For the intended mechanism, the sums of the residuals, `zᵀ·Φ`, `zᵀ·(C·v − b)` and
-//! `zᵀ·(C·a − Γ)`, are zero. For the stored mechanism, the accuracy of such a sum has two limits.
-//! The first limit is the rounding error of the terms of these rows, for any direction of the axes
-//! ([`Scales::terms`]). The second limit is the change of the sum if data change within a stated
-//! tolerance ([`crate::explained`]). A larger sum is a violation.
+//! the dropped row. For the intended mechanism, the sums of the residuals, `zᵀ·Φ`, `zᵀ·(C·v − b)`
+//! and `zᵀ·(C·a − Γ)`, are zero. For the stored mechanism, the accuracy of such a sum has two
+//! limits. The first limit is the rounding error of the terms of these rows, for any direction of
+//! the axes ([`Scales::terms`]). The second limit is the change of the sum if data change within a
+//! stated tolerance ([`crate::explained`]). A sum above both limits is a violation.
 //!
 //! Terms that are zero at the current state are included, too. For example, the velocity of a body
 //! that moves along a row is zero across the row. However, the direction of the row has a rounding
@@ -54,7 +54,7 @@ impl std::fmt::Display for ConstraintLevel {
     }
 }
 
-/// The level of a comparison, with the motion at the compared state.
+/// The level of a comparison, and the motion at the compared state.
 #[derive(Clone, Copy, Debug)]
 pub struct Level<'a> {
     /// The level.
@@ -73,7 +73,7 @@ pub struct Level<'a> {
     size: f64,
 }
 
-/// Rates up to this value (1/s) count as rest: in one second, they move bodies by less than 100
+/// Rates up to this value (1/s) count as rest. In one second, they move bodies by less than 100
 /// times the rounding error of the positions.
 const REST: f64 = 100.0 * f64::EPSILON;
 
@@ -104,7 +104,7 @@ impl<'a> Level<'a> {
         }
     }
 
-    /// Creates the level of accelerations for a and v (n_v each); without a, only the right-hand
+    /// Creates the level of accelerations for a and v (n_v each). Without a, only the right-hand
     /// sides Γ are compared.
     #[must_use]
     pub fn accelerations(
@@ -126,7 +126,7 @@ impl<'a> Level<'a> {
 
 /// Returns whether the velocities v (n_v) count as rest; `size` is the size of the mechanism (m).
 /// In one second, bodies at rest move by less than 100 times the rounding error of their positions.
-/// The direction of these velocities is only rounding.
+/// The direction of such velocities is only rounding.
 #[must_use]
 pub fn is_at_rest(mechanism: &Mechanism, size: f64, v: &[f64]) -> bool {
     fastest(mechanism, size, v) <= REST
@@ -209,12 +209,12 @@ impl Scales<'_> {
 }
 
 impl Data<'_> {
-    /// Sums the residuals of the rows at a level with weights, and returns the part of this sum
-    /// that data within their stated tolerances explain. The weights are z (m + h). The result is
-    /// [`explained`] of the gradient of this sum, which is written to `gradient` ([`Data::count`]
-    /// values). It is zero if no tolerance is stated, and infinite for accelerations that are not
-    /// known. `blocks` are the result of [`Data::blocks`]. The work space must contain the
-    /// configuration, and for accelerations also the velocities.
+    /// Sums the residuals of the rows at a level with weights z (m + h). Returns the part of this
+    /// sum that can result from data within their stated tolerances. The result is [`explained`] of
+    /// the gradient of this sum, which is written to `gradient` ([`Data::count`] values). The
+    /// result is zero if no tolerance is stated, and infinite for accelerations that are not known.
+    /// `blocks` are the result of [`Data::blocks`]. The work space must contain the configuration,
+    /// and for accelerations also the velocities.
     #[must_use]
     pub fn explained(
         self,

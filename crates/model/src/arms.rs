@@ -1,6 +1,6 @@
-//! The arm of a joint is its distance from the centre of mass of the body. Positions are
-//! differences of rounded numbers, so an arm that is shorter than the accuracy of the positions
-//! counts as zero. Otherwise this arm would be the length unit of the body.
+//! The arm of a joint is the distance of the joint from the centre of mass of the body. Positions
+//! are differences of rounded numbers. Therefore an arm that is shorter than the accuracy of the
+//! positions counts as zero. Otherwise this arm would be the length unit of the body.
 
 use crate::element::PlacedConstraint;
 use crate::group::ConstraintId;
@@ -10,10 +10,10 @@ use crate::size::size_of;
 use crate::space::{difference, norm};
 use crate::system::{Scratch, System};
 
-/// Returns the longest arm of each body (m), never zero, at the configuration in the work space.
-/// For a body with all joints at its centre, the function uses the arms of the neighbouring bodies.
-/// If these arms are zero, too (for example shafts with gears), the function uses the size of the
-/// mechanism. The work space must contain C.
+/// Returns the longest arm of each body (m) at the configuration in the work space. The arm is
+/// never zero. For a body with all joints at its centre, the function uses the arms of the
+/// neighbouring bodies. If these arms are zero, too (for example for shafts with gears), the
+/// function uses the size of the mechanism. The work space must contain C.
 pub(crate) fn longest_arms(mechanism: &Mechanism, s: &Scratch) -> Vec<f64> {
     let own = own_arms(mechanism, s);
     let mut of_neighbours = vec![0.0_f64; own.len()];
@@ -35,8 +35,9 @@ pub(crate) fn longest_arms(mechanism: &Mechanism, s: &Scratch) -> Vec<f64> {
         .collect()
 }
 
-/// Returns for each body the largest distance of a joint of any kind from its centre of mass (m),
-/// at the configuration in the work space. The distance is zero if all joints are at the centre.
+/// Returns, for each body, the distance (m) from its centre of mass to its farthest joint of any
+/// kind, at the configuration in the work space. The distance is zero if all joints are at the
+/// centre.
 pub(crate) fn farthest_joints(mechanism: &Mechanism, s: &Scratch) -> Vec<f64> {
     let mut arms = vec![0.0_f64; mechanism.bodies().len()];
     for (k, constraint) in mechanism.elements.constraints.iter().enumerate() {
@@ -52,7 +53,7 @@ pub(crate) fn farthest_joints(mechanism: &Mechanism, s: &Scratch) -> Vec<f64> {
     arms
 }
 
-/// Returns the longest arm of each body; it is zero if all joints are at the centre of mass.
+/// Returns the longest arm of each body. The arm is zero if all joints are at the centre of mass.
 fn own_arms(mechanism: &Mechanism, s: &Scratch) -> Vec<f64> {
     let layout = mechanism.layout();
     let mut arms = vec![0.0_f64; mechanism.bodies().len()];

@@ -1,4 +1,4 @@
-//! Descriptions of bodies in the plane and in space, and the references with which joints select
+//! Descriptions of bodies in the plane and in space, and the references by which joints select
 //! bodies.
 
 use crate::principal::Principal;
@@ -114,23 +114,23 @@ pub struct BodyRecord {
 /// Description of a body in the plane or in space.
 #[derive(Clone, Debug, PartialEq)]
 pub enum DescribedBody {
-    /// In the plane.
+    /// A body in the plane.
     Plane(Body),
-    /// In space.
+    /// A body in space.
     Space3(SpatialBody),
 }
 
 /// Position and orientation of the frame of a body.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum FramePose {
-    /// In the plane.
+    /// Pose in the plane.
     Plane {
         /// Origin of the frame (m).
         position: [f64; 2],
         /// Angle of the body (rad).
         angle: f64,
     },
-    /// In space.
+    /// Pose in space.
     Space3 {
         /// Origin of the frame (m).
         position: [f64; 3],
@@ -198,7 +198,7 @@ impl BodyRecord {
         self.principal.as_ref().map_or(arm, |own| own.own(arm))
     }
 
-    /// Returns the components of the field with this name; the name is the one in error messages.
+    /// Returns the components of the field with this name. Error messages use the same names.
     #[must_use]
     pub fn numbers(&self, field: &str) -> Vec<f64> {
         match (field, &self.described) {
@@ -219,7 +219,8 @@ impl BodyRecord {
         }
     }
 
-    /// Returns the body with its frame at another pose; `None` for a pose of another space.
+    /// Returns the body with its frame at another pose, or `None` if the pose belongs to another
+    /// space.
     #[must_use]
     pub fn at(&self, frame: &FramePose) -> Option<Self> {
         let described = match (&self.described, *frame) {
@@ -270,7 +271,7 @@ pub enum BodyRef {
 }
 
 impl BodyRef {
-    /// Returns the index of the body in the list; `None` for the ground.
+    /// Returns the index of the body in the list, or `None` for the ground.
     #[must_use]
     pub fn moving(self) -> Option<usize> {
         match self {

@@ -1,16 +1,16 @@
 //! Forces that are computed by a callback function of the caller: force laws of drives, and
-//! wrenches on bodies. The function returns only values, so methods that need derivatives do not
-//! support these forces.
+//! wrenches on bodies. The callback returns only values. Therefore methods that need derivatives do
+//! not support these forces.
 //!
 //! The derivatives of a mechanism with such a force cannot be computed. Each method that needs
 //! derivatives must return an error or leave its result undecided. Finite differences of the
-//! callback are not used: a controller may have corners, noise or an internal state, and then the
-//! differences are wrong without a warning.
+//! callback are not used. A controller may have corners, noise or an internal state, and then
+//! finite differences are wrong without a warning.
 //!
-//! A plan does not split such a mechanism and uses an explicit method, because callbacks must be
-//! called in the thread of the caller and in the order of time. If a callback does not return a
-//! finite value, the simulation ends at the stage that called it. A shorter step would not help,
-//! and the callback may have raised an exception.
+//! A plan does not split such a mechanism and uses an explicit method. Callbacks must be called in
+//! the thread of the caller and in the order of time. If a callback does not return a finite value,
+//! the simulation ends at the stage that called the callback. A shorter step would not help, and
+//! the callback may have raised an exception.
 
 mod kernels;
 
@@ -20,7 +20,7 @@ use std::sync::Arc;
 
 use crate::law::UndefinedValue;
 
-/// Reason why a callback has no value; its message becomes the error of the simulation.
+/// Reason why a callback has no value. The message becomes the error of the simulation.
 pub type CallError = Box<dyn Error + Send + Sync>;
 
 /// Arguments of the force of a drive.
@@ -99,7 +99,7 @@ fn failed(why: &CallError) -> UndefinedValue {
 }
 
 impl CalledFunction<DriveState, f64> {
-    /// Returns the value for joint coordinate, rate and time.
+    /// Returns the value for a joint coordinate, its rate and the time.
     pub(crate) fn value(&self, [measure, rate, time]: [f64; 3]) -> Result<f64, UndefinedValue> {
         if !(measure.is_finite() && rate.is_finite()) {
             return Err(UndefinedValue::Input);
@@ -116,7 +116,7 @@ impl CalledFunction<DriveState, f64> {
     }
 }
 
-/// A wrench on one body that is a function of its state.
+/// A wrench on one body. The wrench is a function of the state of the body.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CalledWrench(CalledFunction<BodyState, Wrench>);
 

@@ -1,7 +1,7 @@
-//! Stable codes of errors and warnings and their meanings. They are defined on one page,
-//! `codes/codes.md`; the command `pfaff explain` and the book print this page. A code is never
-//! reused for another meaning. Each error enum returns its codes in `code()`, by a `match` over all
-//! variants.
+//! Stable codes of errors and warnings, and the meanings of the codes. The codes are defined on one
+//! page, `codes/codes.md`; the command `pfaff explain` and the book print this page. A code is
+//! never reused for another meaning. Each error enum returns its codes in `code()`, by a `match`
+//! over all variants.
 //!
 //! Codes below 100 concern the command and its files. Codes from 100 concern the text of a scene,
 //! from 200 its initial state and its rank, from 300 requests, from 400 simulations, from 500
@@ -18,7 +18,7 @@ pub use entry::{Entry, Example, entries};
 /// The page with all codes, as printed in the book.
 pub const PAGE: &str = include_str!("codes/codes.md");
 
-/// Whether the page has a heading with this code number, for example `## P0123`.
+/// For each number, whether the page has a heading with this code number, for example `## P0123`.
 const IS_CODE: [bool; 1000] = {
     const fn digit(byte: u8) -> usize {
         (byte - b'0') as usize

@@ -1,5 +1,5 @@
-//! What a contact cannot do: a joint that pushes but does not pull, and a contact that slips if the
-//! force along it is too large for the force that presses it.
+//! Limits of the loads of a contact. A one-sided joint pushes but does not pull. A contact slips if
+//! the force along it is too large for the force that presses it.
 
 use crate::words::{quantity, short};
 
@@ -14,7 +14,7 @@ pub enum OpenSide {
 }
 
 impl OpenSide {
-    /// Returns the sign of the gap where the joint is open.
+    /// Returns the sign of the gap if the joint is open.
     #[must_use]
     pub fn sign(self) -> f64 {
         match self {
@@ -35,7 +35,7 @@ pub struct Grip {
     pub load: GripLoad,
 }
 
-/// The force that presses a contact which grips.
+/// The force that presses a contact with friction.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub enum GripLoad {
@@ -47,7 +47,7 @@ pub enum GripLoad {
     Joint(String),
 }
 
-/// What a joint cannot do. By default, a joint pushes, pulls, and never slips.
+/// Limits of the loads of a joint. By default, a joint pushes, pulls, and never slips.
 #[derive(Clone, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct ContactLimits {

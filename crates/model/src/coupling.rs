@@ -3,14 +3,14 @@
 //!
 //! The row of a drive is coordinate − initial coordinate − prescribed change. For an angle in
 //! space, the row is the sine of the remaining angle ([`joints::spec::ConstraintSpec::turning`]). A
-//! coupling has the kernels of two drives and the row `y − (ratio·x + c₂·x² + …) = 0`, where x and
-//! y are the joint coordinates since the start.
+//! coupling has the kernels of two drives and the row `y − (ratio·x + c₂·x² + …) = 0`. Here x and y
+//! are the changes of the joint coordinates since the start.
 //!
 //! The multiplier of a coupling is its load: the force or torque along y, like the load of a drive
-//! of y. The reaction of a coupling is the reaction of this drive: it acts on the first body of the
-//! joint of y, at the reference point of this joint. This reaction is not the total load on the
-//! body. On a body that belongs to both joints, the load along x acts as well, and the two loads
-//! may cancel.
+//! of y. The reaction of a coupling is the reaction of this drive. The reaction acts on the first
+//! body of the joint of y, at the reference point of this joint. This reaction is not the total
+//! load on the body. On a body that belongs to both joints, the load along x acts as well, and the
+//! two loads may cancel.
 //!
 //! A coupling uses the kernels of these two drives, so it does not need its own definition.
 
@@ -41,17 +41,17 @@ const OF_ROW: &str = "measure_0";
 /// A coupling of two joint coordinates.
 #[derive(Clone)]
 struct Coupling<S: BodySpace> {
-    /// The coordinate x, and the coordinate y, which is a polynomial of x.
+    /// The coordinate x, and the coordinate y, which is given by a polynomial of x.
     sides: [Side<S>; 2],
     law: Polynomial,
     facts: &'static facts::CouplingFacts,
-    /// Operation lists of the rows for evaluations in which nothing moves, recorded at the first
-    /// request.
+    /// Operation lists of the rows for evaluations in which nothing moves. The lists are recorded
+    /// at the first request.
     programs: OnceLock<Arc<Programs>>,
 }
 
-/// Returns the constraint that makes the second joint coordinate a function of the first. Their
-/// changes since the start satisfy `y = Σ coefficients[k]·xᵏ⁺¹`.
+/// Returns the constraint that makes the second joint coordinate a function of the first. The
+/// changes x and y of the two coordinates since the start satisfy `y = Σ coefficients[k]·xᵏ⁺¹`.
 ///
 /// # Errors
 /// - [`CouplingError::Measure`]: a joint coordinate does not have its own row.
@@ -68,8 +68,8 @@ pub(crate) fn couple<S: Kinematics>(
     let mut slots = Vec::new();
     for (own, drive) in &measures {
         let spec = drive.spec();
-        // Without a separate row, there is no separate initial value: the rows of the drive are
-        // those of the joint.
+        // Without a separate row, there is no separate initial value. The rows of the drive are
+        // then the rows of the joint.
         let has_own_row = spec.data.iter().any(|datum| datum.name == OF_ROW);
         let is_single = has_own_row && spec.rows.len() == 1 && own.len() == 2;
         if !is_single || spec.common.slots.len() != 2 || spec.common.functions().count() != 1 {

@@ -1,8 +1,8 @@
 //! The values stored by constraints (points, directions and scalars), and the derivatives of rows
 //! with respect to them.
 //!
-//! The crate `solvability` computes how a configuration follows a change of the data, and the
-//! effect of a change on a rank.
+//! The crate `solvability` computes how the configuration changes if the data change, and the
+//! effect of a change of the data on a rank.
 
 mod displaced;
 mod gradients;
@@ -30,13 +30,13 @@ pub struct DataBlock {
     pub group: usize,
     /// Name of the parameter, or of the stored initial value.
     pub name: &'static str,
-    /// Indices of its components among all stored values of the mechanism. A point or a direction
-    /// has as many components as the space has dimensions, a set of axes has three, and other data
-    /// have one.
+    /// Indices of the components of the block among all stored values of the mechanism. A point or
+    /// a direction has as many components as the space has dimensions, a set of axes has three, and
+    /// other data have one component.
     pub numbers: Range<usize>,
     /// Unit of changes of this block.
     pub unit: DataUnit,
-    /// Constraint on the changes, if the block is a direction of constant length.
+    /// Restriction of the changes, if the block is a direction of constant length.
     across: Option<Across>,
     /// The largest value that is added to the block (in its unit); the rounding error of the block
     /// is proportional to this value.
@@ -75,8 +75,8 @@ pub enum DataUnit {
 }
 
 impl DataBlock {
-    /// Returns the components of a gradient that belong to this block. The gradient is with respect
-    /// to all stored values; unused components are zero.
+    /// Returns the components of a gradient that belong to this block. The gradient contains the
+    /// derivatives with respect to all stored values. Unused components are zero.
     #[must_use]
     pub fn part(&self, gradient: &[f64]) -> [f64; 3] {
         let own = &gradient[self.numbers.clone()];
@@ -93,8 +93,7 @@ impl DataBlock {
         }
     }
 
-    /// Returns the largest change of a quantity with this gradient, if the block changes by
-    /// `moved`.
+    /// Returns the largest change of a quantity with this gradient if the block changes by `moved`.
     #[must_use]
     pub fn change(&self, gradient: &[f64], moved: f64) -> f64 {
         let [x, y, z] = self.part(gradient);
@@ -108,17 +107,17 @@ impl DataBlock {
     }
 }
 
-/// Returns the part of a quantity with this gradient that changes of the data within their stated
-/// tolerances explain: [`SHARED`] times the sum of the largest changes. The gradient is with
-/// respect to all stored values.
+/// Returns the part of a quantity that can result from changes of the data within their stated
+/// tolerances. This part is [`SHARED`] times the sum of the largest changes. `gradient` contains
+/// the derivatives of the quantity with respect to all stored values.
 #[must_use]
 pub fn explained(blocks: &[DataBlock], gradient: &[f64]) -> f64 {
     let change = |b: &DataBlock| b.change(gradient, b.tolerance.unwrap_or(0.0));
     SHARED * blocks.iter().map(change).sum::<f64>()
 }
 
-/// A contradiction within the stated tolerances is distributed among several rows. Therefore a
-/// residual may be at most this multiple of the effect of the data of its own row.
+/// A contradiction within the stated tolerances is distributed among several rows. Therefore the
+/// residual of a row may be up to this multiple of the effect of the data of the row.
 pub const SHARED: f64 = 3.0;
 
 /// The values that the constraints of a mechanism store.
@@ -130,7 +129,8 @@ pub struct Data<'m>(&'m Mechanism);
 pub struct ForceDerivatives(Vec<(usize, usize, f64)>);
 
 impl ForceDerivatives {
-    /// Adds the gradient of `λᵀ·C·v` with respect to the pose to `out`; both have n_v values.
+    /// Adds the gradient of `λᵀ·C·v` with respect to the pose to `out`. Both `v` and `out` have n_v
+    /// values.
     ///
     /// # Panics
     /// Panics if a slice is too short.
@@ -237,7 +237,7 @@ impl<'m> Data<'m> {
     }
 
     /// Returns the largest change of `λᵀ·Φ` if each block changes by the value that `moved`
-    /// returns; `lambda` has at least m values.
+    /// returns. `lambda` must have at least m values.
     #[must_use]
     pub fn phi_change(
         self,
@@ -252,14 +252,14 @@ impl<'m> Data<'m> {
         changes.sum()
     }
 
-    /// Adds the gradient of `λᵀ·C·v` with respect to the pose to `out`: n_v values, one for each
-    /// velocity component.
+    /// Adds the gradient of `λᵀ·C·v` with respect to the pose to `out`. The gradient has n_v
+    /// values, one for each velocity component.
     pub fn add_power_by_pose(self, s: &Scratch, lambda: &[f64], v: &[f64], out: &mut [f64]) {
         self.each_force_derivative(s, lambda, |i, j, d| out[j] += d * v[i]);
     }
 
-    /// Returns the derivatives of the forces `Cᵀ·λ` with respect to the pose; with them, `λᵀ·C·v`
-    /// can be differentiated for many velocities.
+    /// Returns the derivatives of the forces `Cᵀ·λ` with respect to the pose. With these
+    /// derivatives, `λᵀ·C·v` can be differentiated for many velocities.
     #[must_use]
     pub fn force_derivatives(self, s: &Scratch, lambda: &[f64]) -> ForceDerivatives {
         let mut all = Vec::new();
@@ -324,10 +324,11 @@ impl<'m> Data<'m> {
 }
 
 /// Returns the uncertainty of data of this shape in a constraint, in the unit of the data; `size`
-/// is the size of the mechanism (m). The length tolerance is that of the constraint. If it is not
-/// stated, the function uses that of a marker at the point, of the body in whose frame the data
-/// are, or of the scene, in this order. The angle tolerance is that of the scene; if it is not
-/// stated, the length tolerance divided by the size.
+/// is the size of the mechanism (m). The length tolerance is the tolerance of the constraint. If it
+/// is not stated, the function uses the tolerance of a marker at the point, of the body in whose
+/// frame the data are, or of the scene, in this order. The angle tolerance is the tolerance of the
+/// scene, or the length tolerance divided by the size if the scene does not state an angle
+/// tolerance.
 fn tolerance_of(
     mechanism: &Mechanism,
     c: &PlacedConstraint,

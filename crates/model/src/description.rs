@@ -1,5 +1,5 @@
-//! A mechanism as plain data. The data are read from a scene or created directly by a program. This
-//! module checks nothing; [`crate::Mechanism::build`] checks everything once.
+//! A mechanism as plain data. A reader of scenes or a program creates the data. This module checks
+//! nothing; [`crate::Mechanism::build`] checks everything once.
 
 use joints::spec::{ConstraintSpec, Unit};
 use joints::{Constraint, Plane, Space3};
@@ -156,7 +156,8 @@ impl<S: BodySpace> MechanismDescription<S> {
     }
 
     /// Adds a drive that applies a force (N) or torque (N·m) along its joint coordinate. The force
-    /// law, a function of the coordinate, its rate and time, replaces the prescribed motion.
+    /// law replaces the prescribed motion. The force law is a function of the coordinate, the rate
+    /// of the coordinate and time.
     ///
     /// ```
     /// use joints::{Revolute, RevoluteAngleDrive};
@@ -195,7 +196,7 @@ impl<S: BodySpace> MechanismDescription<S> {
         Ok(())
     }
 
-    /// Adds a force and a torque on a body. A callback computes them from the state of the body.
+    /// Adds a force and a torque on a body. A callback computes both from the state of the body.
     ///
     /// ```
     /// use pfaff_model::{Body, Description, Mechanism, System, Wrench};
@@ -263,8 +264,8 @@ impl<S: BodySpace> MechanismDescription<S> {
     }
 
     /// Converts a point in ground axes (m) to a point relative to the centre of mass of a body in
-    /// its described pose, as joints and forces require. For the ground, and for a body that does
-    /// not exist, the result is the point itself.
+    /// its described pose. Joints and forces require such points. For the ground, and for a body
+    /// that does not exist, the result is the point itself.
     #[must_use]
     pub fn local(&self, body: BodyRef, point: S::Vector<f64>) -> S::Vector<f64> {
         let described = body.moving().and_then(|at| self.bodies.get(at));
@@ -292,7 +293,7 @@ pub enum SetLawError {
         /// "force" or "torque".
         load: &'static str,
     },
-    /// The name is that of a force that is not a drive.
+    /// The name belongs to a force that is not a drive.
     #[error("`{name}` is a force, not a drive by a law")]
     Force {
         /// Name of the force.
@@ -312,9 +313,9 @@ pub enum SetLawError {
 /// ```
 #[derive(Clone)]
 pub enum AnyDescription {
-    /// In the plane.
+    /// A description in the plane.
     Plane(Description),
-    /// In space.
+    /// A description in space.
     Space3(SpatialDescription),
 }
 
@@ -369,7 +370,7 @@ impl AnyDescription {
         either!(self, d => d.tolerance)
     }
 
-    /// Replaces the tolerance of these data.
+    /// Replaces the tolerance returned by [`Self::tolerance`].
     pub fn set_tolerance(&mut self, tolerance: Tolerance) {
         either!(self, d => d.tolerance = tolerance);
     }
@@ -400,7 +401,7 @@ impl AnyDescription {
         named.into_iter()
     }
 
-    /// Returns the prescribed motions of its drives.
+    /// Returns the prescribed motions of the drives.
     pub fn motions(&self) -> impl Iterator<Item = Motion<'_>> {
         let all: Vec<Motion> = either!(self, d => d
             .drives
@@ -415,7 +416,7 @@ impl AnyDescription {
         all.into_iter()
     }
 
-    /// Returns the names of its drives with force laws, including springs on joint coordinates.
+    /// Returns the names of the drives with force laws, including springs on joint coordinates.
     pub fn laws(&self) -> impl Iterator<Item = &str> {
         let named: Vec<_> = either!(self, d => d
             .forces
@@ -434,7 +435,7 @@ impl AnyDescription {
         either!(self, d => d.set_law(drive, law))
     }
 
-    /// Adds a force and a torque on a body. A callback computes them from the state of the body.
+    /// Adds a force and a torque on a body. A callback computes both from the state of the body.
     pub fn called_force(
         &mut self,
         name: &str,
@@ -444,7 +445,7 @@ impl AnyDescription {
         either!(self, d => d.called_force(name, body, function));
     }
 
-    /// Returns the names and bodies of its joints, drives and forces.
+    /// Returns the names and bodies of the joints, drives and forces.
     pub fn connections(&self) -> impl Iterator<Item = (&str, &[BodyRef])> {
         let all: Vec<(&str, &[BodyRef])> = either!(self, d => {
             let joints = d.joints.iter().map(|x| (x.name.as_str(), x.bodies.as_slice()));
@@ -461,7 +462,7 @@ impl AnyDescription {
         either!(self, d => d.forces.len())
     }
 
-    /// Returns the description, if it is planar.
+    /// Returns the description if it is planar.
     #[must_use]
     pub fn plane(&self) -> Option<&Description> {
         match self {
@@ -470,7 +471,7 @@ impl AnyDescription {
         }
     }
 
-    /// Returns the description as a mutable reference, if it is planar.
+    /// Returns the description as a mutable reference if it is planar.
     pub fn plane_mut(&mut self) -> Option<&mut Description> {
         match self {
             Self::Plane(d) => Some(d),
@@ -507,7 +508,7 @@ pub struct Joint<S: BodySpace = Plane> {
     /// is divided by the size of the mechanism. This tolerance takes precedence over the tolerances
     /// of the bodies and of the scene.
     pub tolerance: Option<f64>,
-    /// What the joint cannot do.
+    /// Limits of the loads of the joint.
     pub limits: ContactLimits,
 }
 
@@ -529,19 +530,20 @@ impl<S: BodySpace> Joint<S> {
     }
 }
 
-/// A prescribed relative motion: coordinate − initial coordinate − (f(t) − f(0)) = 0.
+/// A prescribed relative motion, with the row coordinate − initial coordinate − (f(t) − f(0)) = 0.
 #[derive(Clone)]
 pub struct Drive<S: BodySpace = Plane> {
     /// Name of the drive.
     pub name: String,
     /// The bodies, in the order of the definition of the joint.
     pub bodies: Vec<BodyRef>,
-    /// The element that drives one coordinate of the joint, with the parameters of the joint.
+    /// The element that drives one coordinate of the joint. The element has the parameters of the
+    /// joint.
     pub element: Box<dyn ConstraintKernels<S>>,
     /// The function f.
     pub motion: Function,
-    /// Tolerance of the points, directions and scalars (m), equal to the tolerance of the driven
-    /// joint.
+    /// Tolerance of the points, directions and scalars (m). The tolerance is equal to the tolerance
+    /// of the driven joint.
     pub tolerance: Option<f64>,
 }
 

@@ -2,8 +2,8 @@
 //! velocities of their bodies.
 //!
 //! Only this module depends on the data types in which kernels receive poses and velocities. The
-//! rest of the crate evaluates a [`PlacedConstraint`] or a [`PlacedForce`] with [`Slots`], and
-//! reads poses of bodies from [`Bodies`]. Elements whose kernels need other data types must be
+//! other modules of the crate evaluate a [`PlacedConstraint`] or a [`PlacedForce`] with [`Slots`],
+//! and read poses of bodies from [`Bodies`]. Elements whose kernels need other data types must be
 //! added in this module.
 
 mod bodies;

@@ -1,12 +1,12 @@
-//! Constraints in double-double at a configuration that is refined beyond `f64`. A certificate of
-//! the rank uses these constraints.
+//! Constraints in double-double at a configuration that is refined to more digits than `f64` has. A
+//! certificate of the rank uses these constraints.
 //!
 //! At a configuration stored in `f64`, the computed value of an exactly zero singular value is
-//! about 1e-16. It cannot be distinguished from a very small singular value. This module reduces Φ
-//! to 1e-32 in the independent rows. The computed value of an exact zero then decreases to about
-//! 1e-32, too, but a singular value that is due to a misalignment in the data does not change. The
-//! method is not suitable for simulations: it allocates memory and is 100 times slower than the
-//! kernels in `f64`.
+//! about 1e-16. This value cannot be distinguished from a very small singular value. This module
+//! reduces Φ to 1e-32 in the independent rows. The computed value of an exact zero then decreases
+//! to about 1e-32, too. A singular value that is due to a misalignment in the data does not change.
+//! The method is not suitable for simulations, because it allocates memory and is 100 times slower
+//! than the kernels in `f64`.
 
 use linalg::{DampedRows, Dd, DdMatrix, StepError};
 
@@ -24,15 +24,15 @@ pub struct PolishedConfiguration {
     pub t: f64,
     /// Coordinates, n_q.
     pub q: Vec<Dd>,
-    /// Φ, m values: rounding errors in the independent rows, and residuals due to the data in the
-    /// other rows.
+    /// Φ, m values. In the independent rows, they are rounding errors. In the other rows, they are
+    /// residuals due to the data.
     pub phi: Vec<Dd>,
     /// C, (m+h) × n_v.
     pub c: DdMatrix,
 }
 
 /// Largest number of corrections. Each correction adds as many correct digits as a factorisation in
-/// `f64` has, or fewer near a singular configuration.
+/// `f64` has, or fewer digits near a singular configuration.
 const CORRECTIONS: usize = 6;
 
 /// A residual below this multiple of the rounding error of double-double needs no further
@@ -42,7 +42,8 @@ const ROUNDINGS: f64 = 16.0;
 impl PolishedConfiguration {
     /// Refines the coordinates q, which satisfy Φ = 0 to `f64`; `kept` are the independent rows of
     /// Φ. Each correction has the smallest possible norm. The iteration ends when corrections no
-    /// longer decrease, or when the next one would move a body by more than a stated tolerance.
+    /// longer decrease, or when the next correction would move a body by more than a stated
+    /// tolerance.
     ///
     /// | argument | shape | meaning |
     /// | --- | --- | --- |
@@ -232,8 +233,8 @@ mod tests {
         for (p, q) in polished.q.iter().zip(q) {
             assert!((p.to_f64() - q).abs() < 1e-15);
         }
-        // Compares C with the kernels in `f64`, and the entry −(R·s)_y = 0.7·sin a of the first row
-        // with a value that has more digits than `f64`.
+        // Compares C with the kernels in `f64`. The entry −(R·s)_y = 0.7·sin a of the first row is
+        // compared with a value that has more digits than `f64`.
         let mut s = mechanism.scratch();
         mechanism.pose(0.0, &q, &mut s);
         mechanism.c(&mut s);

@@ -1,5 +1,5 @@
 //! Body frames whose origin is not the centre of mass. Only this module converts between the
-//! positions and velocities of a description and those of the equations.
+//! positions and velocities of a description and the positions and velocities of the equations.
 //!
 //! The equations use centres of mass: q = (r, φ), and points of joints are relative to the centre
 //! of mass. Descriptions and outputs use the origin o of the body frame. With c = [`Body::centre`],
@@ -15,8 +15,8 @@ use crate::observed::{Marker, Measure, MeasureKind, Observables, are_parallel, u
 use crate::space::{SpaceKind, cross, difference, dot, norm, normalised, quaternion_product};
 use crate::system::System;
 
-/// Position, velocity and acceleration, in ground axes, of a point of a body or of the origin of
-/// its frame.
+/// Position, velocity and acceleration of a point of a body, or of the origin of its frame, in
+/// ground axes.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct FrameState {
     /// The space of the mechanism.
@@ -87,7 +87,7 @@ impl FrameState {
         [distance, 2.0 * norm(&[x, y, z]).atan2(w.abs())]
     }
 
-    /// Returns the orientation as a quaternion; in the plane, the rotation is about the normal of
+    /// Returns the orientation as a quaternion. In the plane, the rotation is about the normal of
     /// the plane.
     fn orientation(&self) -> [f64; 4] {
         if self.space == SpaceKind::Space3 {
@@ -114,9 +114,10 @@ impl FrameState {
     /// Names of the columns of [`Self::roll_pitch_yaw`].
     pub const ANGLES: [&str; 3] = ["roll", "pitch", "yaw"];
 
-    /// Returns roll, pitch and yaw (rad) of the axes in space: the rotations about the axes x, then
-    /// y, then z of the ground that turn them into this orientation. Pitch is between −π/2 and π/2.
-    /// At its ends only the sum or the difference of roll and yaw is defined, and roll is zero.
+    /// Returns roll, pitch and yaw (rad) of the axes in space. The rotations about the axes x, then
+    /// y, then z of the ground rotate the ground axes into this orientation. Pitch is between −π/2
+    /// and π/2. At both limits only the sum or the difference of roll and yaw is defined, and roll
+    /// is zero.
     ///
     /// ```
     /// use pfaff_model::{FrameState, SpaceKind};
@@ -203,8 +204,8 @@ impl<'m> Frames<'m> {
         }
     }
 
-    /// Returns the markers and measures. A part of a mechanism contains only the markers for which
-    /// a tolerance is stated.
+    /// Returns the markers and measures. A part of a mechanism contains only markers with a stated
+    /// tolerance.
     #[must_use]
     pub fn observed(self) -> &'m Observables {
         &self.mechanism.observed
@@ -212,8 +213,8 @@ impl<'m> Frames<'m> {
 
     /// Transforms a vector from the axes of the coordinates of a body to the axes of the body
     /// frame. Examples are the points in [`Mechanism::points`] and in [`Bodies::to_local`]. The two
-    /// systems are equal unless the body has products of inertia: then the coordinates refer to the
-    /// principal axes.
+    /// sets of axes are equal unless the body has products of inertia. In this case the coordinates
+    /// refer to the principal axes.
     ///
     /// # Panics
     /// Panics if the body does not exist.
@@ -224,8 +225,8 @@ impl<'m> Frames<'m> {
         principal.map_or(own, |of| of.to_frame(own))
     }
 
-    /// Returns the poses of all bodies at q: the positions of the centres of mass, with the axes of
-    /// the body frames.
+    /// Returns the poses of all bodies at q. A pose consists of the position of the centre of mass
+    /// and the axes of the body frame.
     ///
     /// # Panics
     /// Panics if q has the wrong length.
@@ -266,7 +267,7 @@ impl<'m> Frames<'m> {
         self.point(body, [0.0; 3], q, v)
     }
 
-    /// Returns the state of a point at q and v; the point is given in the body frame.
+    /// Returns the state of a point at q and v. The point is given in the body frame.
     ///
     /// # Panics
     /// Panics under the same conditions as [`Self::body`].
@@ -303,8 +304,8 @@ impl<'m> Frames<'m> {
         }
         (state.acceleration, state.alpha) = ([f64::NAN; 3], [f64::NAN; 3]);
         if let Some(a) = self.a {
-            // Accelerations depend on a as velocities depend on v; the centripetal acceleration is
-            // added.
+            // Accelerations depend on a in the same way as velocities depend on v; the centripetal
+            // acceleration is added.
             let frames = self.mechanism.frames();
             let pushed = frames.point(body, point, q, a);
             let arm = turned_at(space, own, arm);
@@ -315,9 +316,9 @@ impl<'m> Frames<'m> {
         state
     }
 
-    /// Returns the velocities given in the description, n_v values, at the configuration q. The
-    /// velocity of a centre of mass is computed from the given velocity of the body frame and the
-    /// given angular velocity.
+    /// Returns the velocities given in the description at the configuration q, n_v values. The
+    /// velocity of a centre of mass is computed from the given velocity and angular velocity of the
+    /// body frame.
     #[must_use]
     pub fn given_velocities(self, q: &[f64]) -> Vec<Option<f64>> {
         let space = self.mechanism.space();
@@ -364,7 +365,7 @@ impl<'m> Frames<'m> {
             .collect()
     }
 
-    /// Returns the state of a marker at q and v; the angle or orientation is that of the marker
+    /// Returns the state of a marker at q and v. The angle or orientation is that of the marker
     /// axes.
     ///
     /// # Panics
@@ -423,9 +424,9 @@ impl<'m> Frames<'m> {
         value
     }
 
-    /// Returns the value of a measure at q and v, its rate and its second derivative. The values
-    /// are NaN if they do not exist, for example the rate of a distance of zero, or if they require
-    /// accelerations that are not known (see [`Self::with_accelerations`]).
+    /// Returns the value of a measure at q and v, its rate and its second derivative. A value is
+    /// NaN if it does not exist, for example the rate of a distance of zero. A value is also NaN if
+    /// it requires accelerations that are not known (see [`Self::with_accelerations`]).
     ///
     /// # Panics
     /// Panics under the same conditions as [`Self::measure`].
@@ -454,7 +455,7 @@ impl<'m> Frames<'m> {
 type Vectors = [[f64; 3]; 3];
 
 /// Returns a measure with its first two derivatives from the states of both markers. Derivatives of
-/// vectors are those that an observer on the first marker sees.
+/// vectors are taken in the axes of the first marker.
 fn values(kind: MeasureKind, first: &FrameState, second: &FrameState) -> [f64; 3] {
     let d = difference(second.place, first.place);
     let moved = difference(
@@ -475,7 +476,7 @@ fn values(kind: MeasureKind, first: &FrameState, second: &FrameState) -> [f64; 3
     );
     let unknown = [f64::NAN; 3];
     let along = |n: [f64; 3], of: Vectors| of.map(|x| dot(n, x));
-    // A direction that is fixed in the second marker.
+    // Returns the vectors of a direction that is fixed in the second marker.
     let fixed = |b: [f64; 3]| -> Vectors {
         let rate = cross(turning, b);
         let (sideways, inwards) = (cross(turned, b), cross(turning, rate));
@@ -517,7 +518,7 @@ fn values(kind: MeasureKind, first: &FrameState, second: &FrameState) -> [f64; 3
     }
 }
 
-/// Returns the length of a vector with its first two derivatives; a length of zero has no
+/// Returns the length of a vector with its first two derivatives. A length of zero has no
 /// derivatives.
 fn length([x, rate, second]: Vectors) -> [f64; 3] {
     let length = norm(&x);

@@ -1,5 +1,5 @@
-//! Functions of time, with their first two derivatives and the times at which a derivative jumps.
-//! Only these functions depend explicitly on time; nothing else in the crates does.
+//! Functions of time, their first two derivatives, and the times at which a derivative jumps.
+//! Nothing else in the crates depends explicitly on time.
 
 mod expression;
 mod lines;
@@ -63,7 +63,7 @@ pub enum FunctionError {
     /// A value is NaN, infinite or above [`LARGEST`].
     #[error("`{name}` is {value:?}, need finite numbers up to {LARGEST:e}")]
     NotFinite {
-        /// Name of the value.
+        /// Name of the argument.
         name: &'static str,
         /// The value.
         value: f64,
@@ -95,11 +95,11 @@ pub enum FunctionError {
     /// The times are not increasing.
     #[error("times must increase: times[{index}] = {later} follows {earlier}")]
     NotIncreasing {
-        /// Index of the later time (0-based).
+        /// Index of the later of the two times (0-based).
         index: usize,
-        /// The time before it.
+        /// The time before the later time.
         earlier: f64,
-        /// The later time, which is not larger than the earlier one.
+        /// The later time, which is not larger than the earlier time.
         later: f64,
     },
     /// The operations of an expression are wrong.
@@ -175,9 +175,8 @@ impl Function {
         }))
     }
 
-    /// Returns the function that starts at the value `start` and adds smooth steps
-    /// `[from, to, by]`. Between the times `from` and `to`, each step adds
-    /// `by·(10s³ − 15s⁴ + 6s⁵)`.
+    /// Returns the function that starts at the value `start` and adds smooth steps `[from, to,
+    /// by]`. Between the times `from` and `to`, each step adds `by·(10s³ − 15s⁴ + 6s⁵)`.
     ///
     /// # Errors
     /// Returns an error if an argument is not finite or above [`LARGEST`], or if a step has no
@@ -203,8 +202,8 @@ impl Function {
         Ok(Self(TimeLaw::Steps { start, steps }))
     }
 
-    /// Returns the natural cubic spline through a table; outside the table, it continues as a
-    /// straight line.
+    /// Returns the natural cubic spline through a table. Outside the table, the spline continues as
+    /// a straight line.
     ///
     /// # Errors
     /// Returns an error if there are fewer than two points, if times are not increasing, or if an
@@ -228,8 +227,8 @@ impl Function {
     ///
     /// # Errors
     /// Returns an error if there are fewer than two points, if times decrease, or if more than two
-    /// times are equal. It also returns an error if the first two or the last two times are equal,
-    /// or if an entry is not finite or above [`LARGEST`].
+    /// times are equal. The function also returns an error if the first two or the last two times
+    /// are equal, or if an entry is not finite or above [`LARGEST`].
     pub fn lines(times: &[f64], values: &[f64]) -> Result<Self, FunctionError> {
         points(times, values, |earlier, later| later >= earlier)?;
         let last = times.len() - 1;
@@ -246,7 +245,7 @@ impl Function {
         Ok(Self(TimeLaw::Lines(Lines::new(times, values))))
     }
 
-    /// Returns the function that operations compute from the time, as in force laws.
+    /// Returns the function of time that a list of operations computes, as in force laws.
     ///
     /// ```
     /// use pfaff_model::Function;
@@ -369,7 +368,7 @@ impl Step {
     }
 }
 
-/// Returns the points of a table after a check of the order of the times.
+/// Returns the points of a table. The function first checks the order of the times.
 fn points(
     times: &[f64],
     values: &[f64],
@@ -407,8 +406,8 @@ fn usable(name: &'static str, values: &[f64]) -> Result<(), FunctionError> {
 mod tests {
     use super::*;
 
-    /// Limit for central differences of a smooth function with step 1e-4; their error is about 1e-8
-    /// times the third derivative.
+    /// Limit for the error of central differences of a smooth function with step 1e-4. The error is
+    /// about 1e-8 times the third derivative.
     const DIFFERENCE: f64 = 1e-6;
 
     #[test]

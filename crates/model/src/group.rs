@@ -17,9 +17,9 @@ pub struct ConstraintId(pub usize);
 /// A joint or a drive.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ConstraintKind {
-    /// Connects bodies.
+    /// A joint, which connects bodies.
     Joint,
-    /// Prescribes a relative motion.
+    /// A drive, which prescribes a relative motion.
     Drive,
 }
 
@@ -30,7 +30,7 @@ pub struct ConstraintGroup {
     pub space: SpaceKind,
     /// Name of the joint or drive.
     pub name: String,
-    /// Joint or drive.
+    /// Whether the group is a joint or a drive.
     pub kind: ConstraintKind,
     /// Description of the constraint type.
     pub spec: &'static ConstraintSpec,
@@ -38,7 +38,7 @@ pub struct ConstraintGroup {
     pub bodies: Vec<BodyRef>,
     /// Rows of C of the joint or drive.
     pub rows: RowRanges,
-    /// What the joint cannot do.
+    /// Limits of the loads of the joint.
     pub limits: ContactLimits,
 }
 
@@ -75,24 +75,24 @@ impl ConstraintGroup {
     }
 
     /// Returns the named component that is reported in addition to force and torque, namely the
-    /// load of a coupling. This load acts on up to four bodies, and the reported force and torque
-    /// are those on one of them.
+    /// load of a coupling. This load acts on up to four bodies. The reported force and torque act
+    /// on one of these bodies.
     #[must_use]
     pub fn own_load(&self) -> Option<&'static str> {
         let named = self.spec.component;
         named.filter(|_| self.spec.common.scene_type == coupling::TYPE)
     }
 
-    /// Returns the names of the reported components: the components that are not identically zero,
-    /// and the named component if it is not one of them.
+    /// Returns the names of the reported components. The reported components are the components
+    /// that are not identically zero, and the named component.
     pub fn component_names(&self) -> impl Iterator<Item = &'static str> + use<> {
         let names = self.space.components();
         let own = self.components().into_iter().map(|c| names[c]);
         own.chain(self.own_load())
     }
 
-    /// Returns the entries (component, row) of the map from multipliers to the reaction that are
-    /// not identically zero, sorted.
+    /// Returns the entries (component, row) of the map from multipliers to the reaction, without
+    /// entries that are identically zero. The list is sorted.
     #[must_use]
     pub fn wrench_entries(&self) -> Vec<[usize; 2]> {
         let mut entries = self.spec.wrench.to_vec();
@@ -126,8 +126,8 @@ impl ConstraintGroup {
         others.contains(first)
     }
 
-    /// Returns the entries of the block of C, with their indices in it, for the other positions of
-    /// the first body in the list of bodies.
+    /// Returns the entries of the block of C for the second and later positions of the first body
+    /// in the list of bodies. Each entry has its index in the block.
     pub(crate) fn repeated(&self) -> impl Iterator<Item = (usize, &'static Entry)> + '_ {
         let is_repeated = |e: &Entry| e.slot > 0 && self.bodies.get(e.slot) == self.bodies.first();
         self.spec

@@ -25,8 +25,8 @@ use program::Program;
 /// A force or torque as a function of a joint coordinate, its rate and time.
 ///
 /// A law made of [operations](Law::new) has derivatives. A [called](Law::called) function returns
-/// only values. Therefore, methods that need derivatives (implicit methods, linearisation, search
-/// for an equilibrium) reject a called law with an error that names the drive.
+/// only values. Methods that need derivatives (implicit methods, linearisation, search for an
+/// equilibrium) therefore reject a called law with an error that contains the name of the drive.
 ///
 /// ```
 /// use pfaff_model::law::{Join, Law, Operation};
@@ -63,14 +63,14 @@ pub struct DriveForce {
     pub measure: f64,
     /// Rate of the joint coordinate (m/s or rad/s).
     pub rate: f64,
-    /// Force (N) or torque (N·m) along the joint coordinate. It acts on the second body, and the
-    /// opposite load acts on the first body.
+    /// Force (N) or torque (N·m) along the joint coordinate. The load acts on the second body, and
+    /// the opposite load acts on the first body.
     pub force: Result<f64, UndefinedValue>,
 }
 
 impl Law {
-    /// Creates a law from its operations in the order of evaluation: operands precede their
-    /// operation.
+    /// Creates a law from its operations in the order of evaluation. The operands of an operation
+    /// precede the operation.
     ///
     /// # Errors
     /// Returns an error if the operations do not produce exactly one value, or need more than 64
@@ -86,8 +86,9 @@ impl Law {
     ///
     /// The callback is called at stages of an integrator, at output rows, and again if a step is
     /// repeated. The calls are not in chronological order, and there may be several calls for one
-    /// instant. For the same arguments, the callback must return the same value. A value that is
-    /// not finite, or an error, ends the simulation with an error that names the force.
+    /// instant. For the same arguments, the callback must return the same value. If the callback
+    /// returns an error or a value that is not finite, the simulation ends with an error that
+    /// contains the name of the force.
     ///
     /// ```
     /// use pfaff_model::Law;
@@ -143,7 +144,7 @@ impl Law {
         Ok([value, by[0], by[1]])
     }
 
-    /// Returns the value for joint coordinate, rate and time.
+    /// Returns the value for a joint coordinate, its rate and the time.
     fn force<T: Smooth>(&self, inputs: [T; 3]) -> Result<T, UndefinedValue> {
         match &self.form {
             Form::Program(program) => program.evaluate(inputs),

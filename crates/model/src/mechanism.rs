@@ -1,5 +1,5 @@
-//! The assembled mechanism: a list of elements, each with its bodies, its rows and its entries in
-//! the matrices. The build checks for all errors, so a built mechanism is always valid.
+//! The assembled mechanism: a list of elements. Each element has its bodies, its rows and its
+//! entries in the matrices. The build checks for all errors, so a built mechanism is always valid.
 
 mod build;
 mod build_error;
@@ -80,16 +80,16 @@ pub struct Mechanism {
     tolerance: Tolerance,
     /// Longest arm of each body in the initial configuration (m).
     reach: Vec<f64>,
-    /// For each body, whether rows that restrict angles keep its angle constant.
+    /// For each body, whether rows that restrict angles keep the angle of the body constant.
     held: Vec<bool>,
     pub(crate) observed: Observables,
     layout: Layout,
 }
 
 impl Mechanism {
-    /// Returns the mechanism with all functions of time replaced by their values at t. Drives are
-    /// then locked, and prescribed forces are constant. Force laws of drives may still depend on
-    /// time.
+    /// Returns the mechanism with all functions of time replaced by their values at t. In this
+    /// mechanism, drives are locked, and prescribed forces are constant. Force laws of drives may
+    /// still depend on time.
     ///
     /// ```
     /// use joints::{Revolute, RevoluteAngleDrive};
@@ -123,8 +123,7 @@ impl Mechanism {
 
 impl Mechanism {
     /// Returns whether a function of time in the rows of a joint or drive prescribes a motion. A
-    /// drive with a constant function is a lock; the same applies to a prescribed rate that is
-    /// always zero.
+    /// drive with a constant function is a lock, and so is a prescribed rate that is always zero.
     ///
     /// # Panics
     /// Panics if the joint or drive does not exist.
@@ -138,13 +137,13 @@ impl Mechanism {
             .any(|of| !of.function.is_constant() || (gives_rate && of.function.jet(0.0)[0] != 0.0))
     }
 
-    /// Returns the name.
+    /// Returns the name of the mechanism.
     #[must_use]
     pub fn name(&self) -> &str {
         &self.name
     }
 
-    /// Returns the space in which its bodies move.
+    /// Returns the space in which the bodies move.
     #[must_use]
     pub fn space(&self) -> SpaceKind {
         self.layout.space
@@ -173,8 +172,8 @@ impl Mechanism {
         &self.bodies
     }
 
-    /// Returns the coordinates of the bodies in a configuration, which are all coordinates except
-    /// the unwrapped angles.
+    /// Returns the coordinates of the bodies in a configuration. The coordinates of the bodies are
+    /// all coordinates except the unwrapped angles.
     pub fn of_bodies<'q, T>(&self, q: &'q [T]) -> &'q [T] {
         &q[..self.layout.angles().start.min(q.len())]
     }
@@ -202,8 +201,8 @@ impl Mechanism {
         q[first..].copy_from_slice(&from[first..]);
     }
 
-    /// Returns the column of C in which two configurations differ most, and the difference: lengths
-    /// as a fraction of `size`, angles in radians.
+    /// Returns the column of C in which two configurations differ most, and the difference. Lengths
+    /// are given as a fraction of `size`, and angles in radians.
     #[must_use]
     pub fn largest_difference(&self, a: &[f64], b: &[f64], size: f64) -> (usize, f64) {
         let space = self.space();
@@ -218,8 +217,8 @@ impl Mechanism {
 
     /// Returns the rate of the sum of the kinetic energy and the potential energy of gravity (W),
     /// for velocities v and accelerations a: `vᵀ·(M·a − weight)`. If the constraints are satisfied,
-    /// this rate is the power of drives and applied forces, because `M·a − Q = −Cᵀ·λ` and
-    /// `C·v = b`.
+    /// this rate is the power of drives and applied forces, because `M·a − Q = −Cᵀ·λ` and `C·v =
+    /// b`.
     #[must_use]
     pub fn energy_rate(&self, v: &[f64], a: &[f64]) -> f64 {
         let terms = self.mass.iter().zip(a).zip(self.weight.iter().zip(v));

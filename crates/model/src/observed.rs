@@ -19,8 +19,8 @@ pub struct Marker {
     /// In space, the orientation of the marker axes in the body frame: a quaternion (w, x, y, z) of
     /// any nonzero length. `None` means that the marker has the axes of the body.
     pub orientation: Option<[f64; 4]>,
-    /// Tolerance of the point (m). It also applies to joints at this point. This tolerance takes
-    /// precedence over the tolerances of the body and of the scene.
+    /// Tolerance of the point (m). The tolerance also applies to joints at this point. This
+    /// tolerance takes precedence over the tolerances of the body and of the scene.
     pub tolerance: Option<f64>,
 }
 
@@ -55,8 +55,8 @@ impl Marker {
         }
     }
 
-    /// Returns the position relative to the centre of mass (m), as joints and forces require;
-    /// `bodies` contains the body of the marker.
+    /// Returns the position relative to the centre of mass (m), as joints and forces require.
+    /// `bodies` must contain the body of the marker.
     #[must_use]
     pub fn from_centre(&self, bodies: &[BodyRecord]) -> [f64; 3] {
         let own = self.body.moving().and_then(|at| bodies.get(at));
@@ -64,21 +64,22 @@ impl Marker {
     }
 }
 
-/// A quantity of the second marker relative to the first.
+/// A quantity of the second marker relative to the first marker.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Measure {
     /// Name of the measure.
     pub name: String,
     /// Kind of the measured quantity.
     pub kind: MeasureKind,
-    /// Indices of two markers; `None` stands for the ground.
+    /// Indices of two markers; `None` denotes the ground.
     pub between: [Option<usize>; 2],
 }
 
 /// Kind of the measured quantity. Here p = Rᵀ·(r₂ − r₁) is the position of the second marker in the
-/// axes of the first; in the plane the markers have the angles θ. Directions have any length: a, n
-/// and o are fixed in the first marker and given in its axes, b is fixed in the second marker. In
-/// the formulas they are unit vectors in the axes of the first marker.
+/// axes of the first marker; in the plane the markers have the angles θ. Directions may have any
+/// length. The directions a, n and o are fixed in the first marker and given in its axes. The
+/// direction b is fixed in the second marker. In the formulas, all directions are unit vectors in
+/// the axes of the first marker.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum MeasureKind {
     /// Distance |p| (m).
@@ -90,13 +91,14 @@ pub enum MeasureKind {
     Angle {
         /// The directions a and b.
         directions: [[f64; 3]; 2],
-        /// In space, the direction o about which the angle is counted: it is the angle between the
-        /// projections of a and b perpendicular to o, atan2(o·(a × b), a·b − (o·a)·(o·b)), more
-        /// than −π and at most π. `None` means that the angle has no sign: atan2(|a × b|, a·b).
+        /// In space, the direction o about which the angle is counted. The angle is measured
+        /// between the projections of a and b perpendicular to o: atan2(o·(a × b), a·b −
+        /// (o·a)·(o·b)). The angle is greater than −π and at most π. `None` means that the angle
+        /// has no sign: atan2(|a × b|, a·b).
         about: Option<[f64; 3]>,
     },
-    /// In space, the angle from the plane perpendicular to a to the direction b (rad), positive on
-    /// the side of a: atan2(a·b, |a × b|).
+    /// In space, the angle from the plane perpendicular to a to the direction b (rad). The angle is
+    /// positive on the side of a: atan2(a·b, |a × b|).
     Inclination([[f64; 3]; 2]),
     /// Speed |ṗ| (m/s).
     Speed,
@@ -104,9 +106,10 @@ pub enum MeasureKind {
     AngularVelocity,
 }
 
-/// Sine of the angle between two directions below which they count as parallel (–). An angle about
-/// a direction is then not defined. Too small: rounding errors of 1e-16 change the angle visibly.
-/// Too large: valid angles are rejected. Test: `an_angle_about_a_parallel_direction_is_rejected`.
+/// Two directions count as parallel if the sine of the angle between them is below this limit (–).
+/// An angle about a direction is then not defined. Too small: rounding errors of 1e-16 change the
+/// angle visibly. Too large: valid angles are rejected. Test:
+/// `an_angle_about_a_parallel_direction_is_rejected`.
 pub(crate) const PARALLEL: f64 = 1e-9;
 
 impl MeasureKind {
@@ -122,7 +125,7 @@ impl MeasureKind {
         about: None,
     };
 
-    /// Names of the columns of a measure and of its derivatives; the column of the value has only
+    /// Names of the columns of a measure and of its derivatives. The column of the value has only
     /// the name of the measure.
     pub const COLUMNS: [&str; 3] = ["", "rate", "acceleration"];
 
@@ -139,7 +142,7 @@ impl MeasureKind {
         Self::AngularVelocity,
     ];
 
-    /// Returns the reason why there is no such measure in a space, or `None` if there is.
+    /// Returns the reason why a space has no such measure, or `None` if the measure exists.
     ///
     /// ```
     /// use pfaff_model::{MeasureKind, SpaceKind};
@@ -220,7 +223,7 @@ pub(crate) fn unit(direction: [f64; 3]) -> [f64; 3] {
     direction.map(|x| x / length)
 }
 
-/// Whether two unit vectors are parallel.
+/// Returns whether two unit vectors are parallel.
 pub(crate) fn are_parallel(a: [f64; 3], b: [f64; 3]) -> bool {
     norm(&cross(a, b)) < PARALLEL
 }
@@ -255,8 +258,8 @@ impl Observables {
         here.next()?.tolerance
     }
 
-    /// Returns the markers with a tolerance whose bodies have a reference in `here`, with these
-    /// references, and without measures. Markers without a tolerance have no influence on the
+    /// Returns the markers with a tolerance whose bodies have a reference in `here`. The result has
+    /// these references and no measures. Markers without a tolerance have no influence on the
     /// equations.
     pub(crate) fn stated_for(&self, here: impl Fn(&BodyRef) -> Option<BodyRef>) -> Self {
         let stated = self.markers.iter().filter(|m| m.tolerance.is_some());

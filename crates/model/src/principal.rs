@@ -3,7 +3,7 @@
 //! The equations use principal axes, in which M is diagonal and constant. For a body with products
 //! of inertia, the build transforms coordinates, velocities, points and directions to these axes.
 //! Outputs are transformed back to the axes of the body frame ([`crate::frame`]). If the given
-//! tensor is diagonal, there is no rotation and no rounding error.
+//! tensor is diagonal, no rotation and no rounding error occur.
 
 use joints::Ring;
 use joints::space3::Pose;
@@ -18,13 +18,14 @@ pub struct Principal {
     pub(crate) moments: [f64; 3],
     /// Columns are the axes, in the body frame.
     axes: [[f64; 3]; 3],
-    /// The rotation from these axes to the axes of the body frame as a quaternion (w, x, y, z).
+    /// The rotation from the principal axes to the axes of the body frame as a quaternion (w, x, y,
+    /// z).
     quaternion: [f64; 4],
 }
 
 impl Principal {
-    /// Returns the principal axes of an inertia tensor in the axes of a frame; `None` if they are
-    /// the axes of this frame.
+    /// Returns the principal axes of an inertia tensor in the axes of a frame. Returns `None` if
+    /// the principal axes are the axes of this frame.
     pub(crate) fn of(inertia: &[[f64; 3]; 3]) -> Option<Self> {
         let [[_, xy, xz], [_, _, yz], _] = *inertia;
         let numbers = inertia.as_flattened();
@@ -48,7 +49,7 @@ impl Principal {
         })
     }
 
-    /// Returns the rotation from these axes to those of the body frame (w, x, y, z).
+    /// Returns the rotation from the principal axes to the axes of the body frame (w, x, y, z).
     #[must_use]
     pub fn quaternion(&self) -> [f64; 4] {
         self.quaternion

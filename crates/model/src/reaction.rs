@@ -1,9 +1,9 @@
 //! Computes reactions from multipliers. A reaction consists of the force and the torque on the
 //! first body of the joint, at the reference point of the joint.
 //!
-//! The reaction is the total effect of the joint on this body: M·a − Q of the body is the sum of
+//! The reaction is the total effect of the joint on this body. For each body, M·a − Q is the sum of
 //! its reactions. If the first body occurs more than once in the list of bodies (for example, the
-//! ground is also the carrier of a gear), these loads are added.
+//! ground is also the carrier of a gear), the loads of all its positions are added.
 
 use joints::Direction;
 use linalg::Matrix;
@@ -62,7 +62,8 @@ impl Reaction {
         }
     }
 
-    /// Returns the force and the torque reduced by those of another wrench about the same point.
+    /// Returns the force and the torque minus the force and the torque of another wrench about the
+    /// same point.
     pub(crate) fn minus(mut self, other: Self) -> Self {
         for (own, x) in self.force.iter_mut().zip(other.force) {
             *own -= x;
@@ -98,7 +99,8 @@ impl Reaction {
     }
 }
 
-/// Unit vectors of axes in ground components; there are as many as the space has dimensions.
+/// Unit vectors of axes in ground components. The number of axes is the number of dimensions of the
+/// space.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Axes {
@@ -125,7 +127,7 @@ pub struct Reactions<'a> {
     other: Option<&'a ConstraintCopy>,
 }
 
-/// A copy of a joint or drive of a mechanism; its stored values may differ.
+/// A copy of a joint or drive of a mechanism. The stored values of the copy may differ.
 #[derive(Clone)]
 pub struct ConstraintCopy {
     id: ConstraintId,
@@ -133,9 +135,9 @@ pub struct ConstraintCopy {
 }
 
 impl ConstraintCopy {
-    /// Replaces the stored values, in the order of [`crate::data::Data::numbers`], including the
-    /// stored initial values. Axes are rotated from their current orientation by the given rotation
-    /// vector.
+    /// Replaces the stored values, in the order of [`crate::data::Data::numbers`]. These include
+    /// the stored initial values. Axes are rotated from their current orientation by the given
+    /// rotation vector.
     ///
     /// # Panics
     /// Panics if there are fewer values than the constraint stores.
@@ -216,8 +218,8 @@ impl<'a> Reactions<'a> {
         map
     }
 
-    /// Calls a function for each term of this map, with component, row and value. `block` is a
-    /// buffer.
+    /// Calls a function for each term of this map. The arguments are the component, the row and the
+    /// value. `block` is a buffer.
     fn visit_wrench(
         self,
         id: ConstraintId,
@@ -234,8 +236,8 @@ impl<'a> Reactions<'a> {
         if !group.repeats_first_body() {
             return;
         }
-        // Adds −Cᵀ for the other positions of the first body in the list of bodies, transferred
-        // from its origin to the reference point.
+        // Adds −Cᵀ for the other positions of the first body in the list of bodies. The torque is
+        // transferred from the origin of the body to the reference point.
         block.clear();
         block.resize(group.spec.c.len(), 0.0);
         c.kernels().c_constant(block);
@@ -269,10 +271,10 @@ impl<'a> Reactions<'a> {
         map
     }
 
-    /// Returns the map (components × m + h) from all multipliers to the total of the reactions on
-    /// one body, `−Cᵀ·λ`: force, and torque about a point (m, ground axes). Returns `None` if the
-    /// body does not exist. The work space must contain C at its configuration. The function
-    /// allocates memory.
+    /// Returns the map (components × m + h) from all multipliers to the sum of the reactions on one
+    /// body, `−Cᵀ·λ`. The rows are the force and the torque about a point (m, ground axes). Returns
+    /// `None` if the body does not exist. The work space must contain C at its configuration. The
+    /// function allocates memory.
     #[must_use]
     pub fn body_wrench_map(self, body: usize, about: [f64; 3]) -> Option<Matrix> {
         if body >= self.s.bodies.len() {
@@ -293,8 +295,8 @@ impl<'a> Reactions<'a> {
     }
 
     /// For a column of C, calls `visit` with each component of force and torque in ground axes and
-    /// the share of the column in this component. The rotations of a spatial body are about its own
-    /// axes.
+    /// the share of the column in this component. The rotations of a spatial body are about the
+    /// axes of the body.
     fn visit_ground(self, column: usize, mut visit: impl FnMut(usize, f64)) {
         let space = self.layout().space;
         let dof = space.dof_of(column);
@@ -307,9 +309,10 @@ impl<'a> Reactions<'a> {
         }
     }
 
-    /// Returns the axes in which a reaction is expressed. The first axis of [`Frame::Edge`] has the
-    /// sign for which the component named by the definition is positive. Without a named component,
-    /// the multiplier is positive. Returns `None` if the reaction has no frame of this kind.
+    /// Returns the axes in which a reaction is expressed. The sign of the first axis of
+    /// [`Frame::Edge`] is chosen so that the component named by the definition is positive, or that
+    /// the multiplier is positive if there is no named component. Returns `None` if the reaction
+    /// has no frame of this kind.
     #[must_use]
     pub fn axes(self, id: ConstraintId, frame: Frame) -> Option<Axes> {
         let axes = match (frame, self.group(id).bodies.first()) {
@@ -343,9 +346,9 @@ impl<'a> Reactions<'a> {
         principal.map_or(own, |of| of.framed(own))
     }
 
-    /// Returns the direction, in the plane, of the force of a joint or drive, if exactly one row
-    /// has a force. In space, the result is `None`, because one direction does not define a unique
-    /// perpendicular direction.
+    /// Returns the direction, in the plane, of the force of a joint or drive. The result exists
+    /// only if exactly one row has a force. In space, the result is `None`, because one direction
+    /// does not define a unique perpendicular direction.
     fn push(self, id: ConstraintId) -> Option<[f64; 2]> {
         let group = self.group(id);
         if group.space.n_translations() > 2 {
@@ -365,9 +368,9 @@ impl<'a> Reactions<'a> {
     }
 
     /// Returns the coefficients of a component of a reaction, `Σ coefficient·λ` over the rows of
-    /// the joint or drive. The component is one of [`SpaceKind::components`], or the component
-    /// named by the definition. Returns `None` if the component does not exist. The function
-    /// allocates memory.
+    /// the joint or drive. `name` is one of [`SpaceKind::components`], or the component named by
+    /// the definition. Returns `None` if the component does not exist. The function allocates
+    /// memory.
     #[must_use]
     pub fn component_coefficients(self, id: ConstraintId, name: &str) -> Option<Vec<f64>> {
         if let Some(k) = self.layout().space.component(name) {
@@ -382,7 +385,7 @@ impl<'a> Reactions<'a> {
     }
 
     /// Returns the reaction of a joint or drive for multipliers λ (all rows). The function panics
-    /// if λ is too short. It allocates memory.
+    /// if λ is too short. The function allocates memory.
     #[must_use]
     pub fn reaction(self, id: ConstraintId, lambda: &[f64]) -> Reaction {
         self.reaction_in(&mut Vec::new(), id, lambda)
@@ -418,15 +421,16 @@ impl<'a> Reactions<'a> {
         wrench
     }
 
-    /// Returns whether a joint or drive acts against the ground. This is the case if one of its
-    /// rows is not zero when all bodies move together as one rigid body. The list of bodies is not
-    /// sufficient for this decision, because an absolute velocity refers to the ground without
-    /// listing it. The work space must contain C at its configuration.
+    /// Returns whether a joint or drive acts against the ground. A joint or drive acts against the
+    /// ground if one of its rows is not zero when all bodies move together as one rigid body. The
+    /// list of bodies is not sufficient for this decision, because an absolute velocity refers to
+    /// the ground without listing it. The work space must contain C at its configuration.
     #[must_use]
     pub fn acts_on_ground(self, id: ConstraintId) -> bool {
         let (space, place) = (self.layout().space, self.place(id));
-        // The velocity component of a column of C in one of the rigid motions: translations along
-        // the axes, and rotations about the axes through the reference point of the joint.
+        // The velocity component of a column of C in one of the rigid motions. The rigid motions
+        // are translations along the axes, and rotations about the axes through the reference point
+        // of the joint.
         let velocity = |motion: usize, column: usize| {
             let dof = space.dof_of(column);
             if space.torques().contains(&motion) && space.forces().contains(&dof) {
@@ -455,7 +459,7 @@ impl<'a> Reactions<'a> {
     }
 }
 
-/// Transfers the torque in a column of a map by an arm: `T + arm × F`.
+/// Adds the moment of the force to the torque in a column of a map: `T + arm × F`.
 fn add_moment(space: SpaceKind, map: &mut Matrix, column: usize, arm: [f64; 3]) {
     let mut force = [0.0; 3];
     for k in space.forces() {

@@ -20,7 +20,7 @@ use crate::system::System;
 /// The equations of one mechanism as operations on inputs.
 #[derive(Clone, Debug)]
 pub struct RecordedEquations {
-    /// All operations, followed by the values that are not part of the equations. The results below
+    /// All operations. The values that are not part of the equations come last. The results below
     /// are indices of this list.
     pub tape: Vec<Operation>,
     /// Meaning of each input.
@@ -49,8 +49,8 @@ pub struct RecordedEquations {
     pub owners: Vec<(usize, String)>,
 }
 
-/// The values of a mechanism that are not part of its equations: masses, principal axes, functions
-/// of time.
+/// The values of a mechanism that are not part of its equations: masses, principal axes, and
+/// functions of time.
 #[derive(Clone, Debug)]
 pub struct Beside {
     /// The index of the first of these values in the recording.
@@ -58,7 +58,7 @@ pub struct Beside {
     /// The diagonal of M, n_v values.
     pub mass: Vec<RecordedNumber>,
     /// In space, for each body: the quaternion (w, x, y, z) from the principal axes to the axes of
-    /// the body frame, if the two differ.
+    /// the body frame, if the two sets of axes differ.
     pub principal: Vec<Option<[RecordedNumber; 4]>>,
     /// The values of each function of time, in the order of [`TimeFunction::numbers`].
     pub functions: Vec<Vec<RecordedNumber>>,
@@ -83,7 +83,7 @@ impl Mechanism {
         self.elements.functions()
     }
 
-    /// Returns the name of the first joint, drive or force with a function of time that is an
+    /// Returns the name of the first joint, drive or force whose function of time is an
     /// [expression](crate::Function::expression).
     #[must_use]
     pub fn expression_of_time(&self) -> Option<&str> {

@@ -29,14 +29,16 @@ pub struct ConstraintDefinition<S: BodySpace = Plane> {
     pub drives: Vec<DriveDefinition<S>>,
 }
 
-/// The drive of a joint coordinate. It has the arguments of its joint and one function of time.
+/// The drive of a joint coordinate. The drive has the arguments of its joint and one function of
+/// time.
 #[derive(Clone, Debug)]
 pub struct DriveDefinition<S: BodySpace = Plane> {
     /// Description of the definition.
     pub spec: &'static ConstraintSpec,
     /// Constructor of the drive.
     pub build: BuildConstraint<S>,
-    /// Constructor of a force law that replaces the motion: a force with one function, the time.
+    /// Constructor of a force law that replaces the motion. A force law is a force with one
+    /// function, the time.
     pub law: BuildLaw<S>,
 }
 
@@ -66,8 +68,8 @@ impl<S: BodySpace> Default for Definitions<S> {
 }
 
 impl<S: BodySpace> Definitions<S> {
-    /// Returns the constraints of a type in scenes. Several definitions may have the same type;
-    /// they differ in a key or in the number of bodies.
+    /// Returns the constraints of a type in scenes. Several definitions may have the same type.
+    /// Such definitions differ in a key or in the number of bodies.
     pub fn constraints<'a>(
         &'a self,
         scene_type: &'a str,
@@ -87,12 +89,12 @@ impl<S: BodySpace> Definitions<S> {
             .filter(move |d| d.spec.common.scene_type == scene_type)
     }
 
-    /// Descriptions of all constraints.
+    /// Returns the descriptions of all constraints.
     pub fn constraint_specs(&self) -> impl Iterator<Item = &'static Spec> + '_ {
         self.constraints.iter().map(|d| &d.spec.common)
     }
 
-    /// Descriptions of all forces.
+    /// Returns the descriptions of all forces.
     pub fn force_specs(&self) -> impl Iterator<Item = &'static Spec> + '_ {
         self.forces.iter().map(|d| &d.spec.common)
     }

@@ -1,5 +1,5 @@
-//! Rows of C of one joint or drive. The holonomic rows of C come first; a joint may have rows among
-//! them and among the nonholonomic rows. The values of the rows of a joint, in the order of its
+//! Rows of C of one joint or drive. The holonomic rows of C come first. A joint may have both
+//! holonomic and nonholonomic rows. The values of the rows of a joint, in the order of its
 //! definition, are the values of these two ranges in sequence.
 
 use std::fmt;
@@ -59,8 +59,8 @@ impl RowRanges {
         }
     }
 
-    /// Converts a row of C to the index of the row in the definition; `None` if the row does not
-    /// belong to this joint or drive.
+    /// Converts a row of C to the index of the row in the definition. The result is `None` if the
+    /// row does not belong to this joint or drive.
     #[must_use]
     pub fn own(&self, row: usize) -> Option<usize> {
         if self.holonomic.contains(&row) {
@@ -71,7 +71,7 @@ impl RowRanges {
         }
     }
 
-    /// Returns the rows as one range, if they are consecutive in C.
+    /// Returns the rows as one range if they are consecutive in C.
     #[inline]
     fn adjacent(&self) -> Option<Range<usize>> {
         if self.nonholonomic.is_empty() {
@@ -101,8 +101,8 @@ impl RowRanges {
         }
     }
 
-    /// Calls `write` to write the values of these rows; they are written in place if the rows are
-    /// consecutive.
+    /// Calls `write` to write the values of these rows. The values are written in place if the rows
+    /// are consecutive.
     ///
     /// # Panics
     /// Panics if `all` is too short.

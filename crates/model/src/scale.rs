@@ -1,5 +1,5 @@
 //! Reference sizes for residuals. Each row has its own size, computed from the terms that cancel in
-//! the row. The comparison therefore depends neither on units nor on the size or the position of a
+//! the row. Therefore the comparison depends neither on units nor on the size or the position of a
 //! mechanism.
 
 use std::ops::Range;
@@ -39,8 +39,8 @@ impl Scales<'_> {
         self.mechanism.layout().row(self.s, i).map(term).sum()
     }
 
-    /// Returns the size of the coordinate of column j of C; `counted` is the largest unwrapped
-    /// angle of its row.
+    /// Returns the size of the coordinate of column j of C. `counted` is the largest unwrapped
+    /// angle of the row.
     pub(crate) fn coordinate(self, j: usize, counted: f64) -> f64 {
         let space = self.mechanism.space();
         let at = self.s.bodies.position(space.body_of(j), space.dof_of(j));
@@ -49,8 +49,8 @@ impl Scales<'_> {
         if at > least { at } else { least }
     }
 
-    /// Returns the largest unwrapped angle (rad) of the joint or drive of a row; its rounding error
-    /// grows with the number of revolutions.
+    /// Returns the largest unwrapped angle (rad) of the joint or drive of a row. The rounding error
+    /// of the angle grows with the number of revolutions.
     pub(crate) fn counted(self, i: usize) -> f64 {
         let owner = self.mechanism.layout().owners.get(i);
         let of_row = owner.map(|id| &self.mechanism.elements.constraints[id.0]);
@@ -62,10 +62,10 @@ impl Scales<'_> {
         angles.fold(0.0, |most, of| most.max(of[0][0].abs()))
     }
 
-    /// Returns bounds on the entries of row `i` of C for any orientation of the bodies: column and
-    /// bound. A force on a body counts with the same size in all directions, and the arm of a force
-    /// is at most the longest arm of the body. The work space must contain C at its configuration.
-    /// The function allocates memory.
+    /// Returns bounds on the entries of row `i` of C for any orientation of the bodies. Each item
+    /// is a column and its bound. A force on a body counts with the same size in all directions,
+    /// and the arm of a force is at most the longest arm of the body. The work space must contain C
+    /// at its configuration. The function allocates memory.
     #[must_use]
     pub fn entry_bounds(self, i: usize) -> Vec<(usize, f64)> {
         let mut bounds = Vec::new();
@@ -98,7 +98,7 @@ impl Scales<'_> {
         }
     }
 
-    /// Writes the sizes of the coordinates of the columns of C, n_v values. With these sizes and
+    /// Writes the sizes of the coordinates of the columns of C, n_v values. From these sizes and
     /// the [`Scales::entry_bounds`] of a row, the caller can compute the size of the terms of this
     /// row of Φ, as in [`Scales::position`].
     pub fn of_coordinates(mechanism: &Mechanism, q: &[f64], sizes: &mut [f64]) {
@@ -130,10 +130,10 @@ impl Scales<'_> {
         bounds.map(|(j, c)| c * v[j].abs()).sum::<f64>() + self.s.b[i].abs()
     }
 
-    /// Returns the size of the terms of row `i` of `C·v̇ − Γ` at velocities v: `|Γ_i|` plus the
-    /// contributions of the centripetal terms of the bodies. These are `|C_ij|·(|v_j|·ω + size·ω²)`
-    /// for translations and `|C_ij|·ω²` for rotations, with the largest |ω| of the row. The work
-    /// space must contain C and Γ.
+    /// Returns the size of the terms of row `i` of `C·v̇ − Γ` at velocities v. The size is `|Γ_i|`
+    /// plus the contributions of the centripetal terms of the bodies. These contributions are
+    /// `|C_ij|·(|v_j|·ω + size·ω²)` for translations and `|C_ij|·ω²` for rotations, with the
+    /// largest |ω| of the row. The work space must contain C and Γ.
     #[must_use]
     pub fn acceleration(self, i: usize, v: &[f64], size: f64) -> f64 {
         let row = || self.mechanism.layout().row(self.s, i);
@@ -182,10 +182,10 @@ impl Scales<'_> {
         scaling
     }
 
-    /// Returns a bound on the error of the entries of a dimensionless C at a configuration: the
-    /// largest ratio, for these rows, of |Φ_i| to the change of row `i` if the mechanism moves by
-    /// its own size. If |Φ_i| is less than the rounding error of its terms, the function uses this
-    /// rounding error. The work space must contain Φ and C.
+    /// Returns a bound on the error of the entries of a dimensionless C at a configuration. For
+    /// each row, the function divides |Φ_i| by the change of row `i` if the mechanism moves by its
+    /// own size. The bound is the largest of these ratios. If |Φ_i| is less than the rounding error
+    /// of its terms, the function uses this rounding error. The work space must contain Φ and C.
     #[must_use]
     pub fn relative_residual(self, size: f64, rows: impl IntoIterator<Item = usize>) -> f64 {
         let of_row = |i: usize| {

@@ -1,4 +1,4 @@
-//! The length scale of a mechanism: the extent of its bodies and joints.
+//! The length scale of a mechanism. The length scale is the extent of the bodies and joints.
 
 use crate::mechanism::Mechanism;
 use crate::rounding::are_apart;
@@ -6,8 +6,8 @@ use crate::space::norm;
 use crate::system::{Scratch, System};
 
 /// Returns the diagonal of the smallest box that contains the positions of all bodies and joints.
-/// If these positions coincide, the function uses the points of the joints; if these coincide as
-/// well, it returns 1 m.
+/// If these positions coincide, the function uses the points of the joints. If these points
+/// coincide as well, it returns 1 m.
 #[must_use]
 pub fn scene_size(mechanism: &Mechanism, q: &[f64]) -> f64 {
     let mut s = mechanism.scratch();

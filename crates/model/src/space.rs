@@ -1,15 +1,15 @@
-//! Spaces define how the pose of a body follows from its coordinates, and how a configuration moves
-//! along velocities.
+//! Spaces define how the pose of a body is computed from its coordinates, and how a configuration
+//! is displaced along velocities.
 //!
 //! Coordinates and velocities are different: a body has n_q coordinates and n_v velocities, and no
-//! code outside this module adds a velocity to a coordinate. A configuration is moved by
-//! [`Space::displace`] and compared by [`Space::difference`], both in the directions of velocities:
-//! `(x, y)` along the axes of the ground, then the rotation.
+//! code outside this module adds a velocity to a coordinate. [`Space::displace`] moves a
+//! configuration, and [`Space::difference`] compares two configurations. Both functions use the
+//! directions of velocities: `(x, y)` along the axes of the ground, then the rotation.
 //!
 //! Constraints and their kernels use only poses and twists.
 //!
-//! Therefore C has n_v columns by construction, and no joint depends on Euler parameters. Verdicts
-//! use the C of twists, not columns of quaternions.
+//! Therefore C always has n_v columns, and no joint depends on Euler parameters. Verdicts use the C
+//! of twists, not columns of quaternions.
 //!
 //! In space a body has the coordinates r and a quaternion of any length, and the velocities ṙ and
 //! ω. The components of ω are along the principal axes of the body, so M is diagonal. The
@@ -42,15 +42,16 @@ use joints::Ring;
 pub enum Frame {
     /// The axes of the ground.
     Global,
-    /// The axes of the first body of the joint; global for the ground.
+    /// The axes of the first body of the joint. For the ground, these are the global axes.
     FirstBody,
-    /// The axes u, v and w of a joint in space, fixed in its first body: w is along its axis, or
-    /// normal to its plane. Joints without an axis, and joints in the plane, do not have this
-    /// frame.
+    /// The axes u, v and w of a joint in space, fixed in the first body of the joint. The axis w is
+    /// along the axis of the joint, or normal to its plane. Joints without an axis, and joints in
+    /// the plane, do not have this frame.
     Joint,
     /// The only direction in which the joint can transmit a force, followed by this direction
-    /// rotated by +90°: normal and tangent for a knife edge, across and along the axis for a slot.
-    /// Joints without a row with a force, or with several such rows, do not have this frame.
+    /// rotated by +90°. These directions are normal and tangent for a knife edge, and the
+    /// directions across and along the axis for a slot. Joints without a row with a force, or with
+    /// several such rows, do not have this frame.
     Edge,
 }
 
@@ -95,7 +96,7 @@ macro_rules! in_space {
 }
 pub(crate) use in_space;
 
-/// Evaluates an expression for the spaces whose bodies have planar poses; the second expression is
+/// Evaluates an expression for the spaces whose bodies have planar poses. The second expression is
 /// for space.
 macro_rules! in_plane {
     ($kind:expr, $space:ident => $body:expr, $other:expr) => {
@@ -122,39 +123,41 @@ impl SpaceKind {
         in_space!(self, S => S::N_Q)
     }
 
-    /// Returns the number of velocities of a body, translations first: its columns of C, and the
-    /// components of a force and a torque on it.
+    /// Returns the number of velocities of a body, translations first. This number is also the
+    /// number of columns of C of a body, and of components of a force and a torque on it.
     #[must_use]
     pub fn n_v(self) -> usize {
         in_space!(self, S => S::N_V)
     }
 
-    /// Returns the number of these velocities that are translations, and components of a force.
+    /// Returns the number of translational velocities of a body, which is also the number of
+    /// components of a force.
     #[must_use]
     pub fn n_translations(self) -> usize {
         in_space!(self, S => S::N_TRANSLATIONS)
     }
 
-    /// Returns the number of these velocities that are rotations, and components of a torque.
+    /// Returns the number of rotational velocities of a body, which is also the number of
+    /// components of a torque.
     #[must_use]
     pub fn n_rotations(self) -> usize {
         in_space!(self, S => S::N_V - S::N_TRANSLATIONS)
     }
 
-    /// The body that moves with a column of C.
+    /// Returns the body that moves with a column of C.
     // The divisors are constants of each space, because this function is called entry by entry.
     #[must_use]
     pub fn body_of(self, column: usize) -> usize {
         in_space!(self, S => column / S::N_V)
     }
 
-    /// Returns the freedom of this body, below [`Self::n_v`].
+    /// Returns the index of the velocity component within the body, below [`Self::n_v`].
     #[must_use]
     pub fn dof_of(self, column: usize) -> usize {
         in_space!(self, S => column % S::N_V)
     }
 
-    /// Returns whether a column of C is that of a rotation.
+    /// Returns whether a column of C belongs to a rotation.
     #[must_use]
     pub fn is_rotation(self, column: usize) -> bool {
         in_space!(self, S => column % S::N_V >= S::N_TRANSLATIONS)
@@ -181,15 +184,17 @@ impl SpaceKind {
         first + self.n_translations()..first + self.n_v()
     }
 
-    /// Returns the unit of motions along a column of C: `size` for lengths, one radian for angles.
+    /// Returns the unit of motions along a column of C. The unit is `size` for lengths and one
+    /// radian for angles.
     #[must_use]
     pub fn unit(self, column: usize, size: f64) -> f64 {
         if self.is_rotation(column) { 1.0 } else { size }
     }
 
     /// Scales quaternions in the coordinates q to length one if their length is outside the allowed
-    /// range, and scales their rates with them. Returns the number of scaled quaternions. The
-    /// motion does not change, because a rotation depends only on the direction of its quaternion.
+    /// range. The rates of the quaternions are scaled as well. Returns the number of scaled
+    /// quaternions. The motion does not change, because a rotation depends only on the direction of
+    /// its quaternion.
     ///
     /// ```
     /// let (mut q, mut qd) = ([0.0; 7], [0.0; 7]);
@@ -224,8 +229,8 @@ impl SpaceKind {
         }
     }
 
-    /// Returns the names of the output numbers of a frame: its position and orientation, then its
-    /// velocities.
+    /// Returns the names of the output numbers of a frame: first its position and orientation, then
+    /// its velocities.
     ///
     /// ```
     /// let plane = pfaff_model::SpaceKind::Plane;
@@ -257,8 +262,8 @@ impl SpaceKind {
         in_space!(self, S => S::ACCELERATIONS)
     }
 
-    /// Returns the SI unit of an output number of a frame; empty for components of a quaternion and
-    /// for other names.
+    /// Returns the SI unit of an output number of a frame. The result is empty for components of a
+    /// quaternion and for other names.
     #[must_use]
     pub fn column_unit(self, name: &str) -> &'static str {
         match name {
@@ -321,10 +326,10 @@ impl SpaceKind {
         }
     }
 
-    /// Returns the velocities of a body in one of the [`Self::n_v`] rigid motions: along an axis of
-    /// the ground at 1 m/s, or about an axis of the ground, at this arm from it, at 1 rad/s. `axes`
-    /// are the axes of the body in ground components. Angular velocities in space are given in
-    /// these axes.
+    /// Returns the velocities of a body in one of the [`Self::n_v`] rigid motions. The rigid
+    /// motions are translations along the axes of the ground at 1 m/s, and rotations about the axes
+    /// of the ground at 1 rad/s. `arm` is the arm of the body from the axis. `axes` are the axes of
+    /// the body in ground components. Angular velocities in space are given in these axes.
     ///
     /// ```
     /// let plane = pfaff_model::SpaceKind::Plane;
@@ -349,13 +354,13 @@ impl SpaceKind {
         v
     }
 
-    /// Returns the components of a force among [`Self::components`].
+    /// Returns the range of the components of a force in [`Self::components`].
     #[must_use]
     pub fn forces(self) -> Range<usize> {
         0..self.n_translations()
     }
 
-    /// Returns the components of a torque among [`Self::components`].
+    /// Returns the range of the components of a torque in [`Self::components`].
     #[must_use]
     pub fn torques(self) -> Range<usize> {
         self.n_translations()..self.n_v()
@@ -406,8 +411,8 @@ impl SpaceKind {
         });
     }
 
-    /// Returns the column of C along which two configurations differ most, and the difference:
-    /// lengths as a fraction of `size`, angles in radians.
+    /// Returns the column of C along which two configurations differ most, and the difference.
+    /// Lengths are given as a fraction of `size`, and angles in radians.
     #[must_use]
     pub(crate) fn largest_difference(self, a: &[f64], b: &[f64], size: f64) -> (usize, f64) {
         let mut largest = (0, 0.0);
@@ -437,8 +442,8 @@ impl SpaceKind {
         });
     }
 
-    /// Writes the velocity of a column of C as a sum over q̇ at the configuration q to `terms`:
-    /// indices of q̇ with their coefficients.
+    /// Writes the velocity of a column of C at the configuration q to `terms`, as a sum over q̇.
+    /// The terms are indices of q̇ with their coefficients.
     pub fn read_velocity(self, q: &[f64], column: usize, terms: &mut Vec<(usize, f64)>) {
         let body = self.coordinates(self.body_of(column));
         let first = body.start;
@@ -450,8 +455,8 @@ impl SpaceKind {
         });
     }
 
-    /// Returns unit directions of q̇ along which no pose changes at the configuration q: indices of
-    /// q̇ with their entries.
+    /// Returns unit directions of q̇ along which no pose changes at the configuration q. Each
+    /// direction is a list of indices of q̇ with their entries.
     #[must_use]
     pub fn normals(self, q: &[f64]) -> Vec<Vec<(usize, f64)>> {
         in_space!(self, S => {
@@ -465,9 +470,9 @@ impl SpaceKind {
         })
     }
 
-    /// Numbers that are equal if and only if the poses are equal: the coordinates in the plane, and
-    /// the position and the axes of each body in space. (A quaternion and its negative represent
-    /// one pose.)
+    /// Returns numbers that are equal if and only if the poses are equal. The numbers are the
+    /// coordinates in the plane, and the position and the axes of each body in space. (A quaternion
+    /// and its negative represent the same pose.)
     #[must_use]
     pub fn pose_numbers(self, q: &[f64]) -> Vec<f64> {
         if self != Self::Space3 {
@@ -481,8 +486,8 @@ impl SpaceKind {
         q.chunks_exact(self.n_q()).flat_map(of).collect()
     }
 
-    /// Returns the position of a body at coordinates q in the direction of a column of C: a
-    /// coordinate (m) or an angle (rad).
+    /// Returns the position of a body at coordinates q in the direction of a column of C. The
+    /// position is a coordinate (m) or an angle (rad).
     #[must_use]
     pub fn position(self, q: &[f64], column: usize) -> f64 {
         let own = &q[self.coordinates(self.body_of(column))];

@@ -1,22 +1,22 @@
-//! Finds a consistent initial configuration. It satisfies the constraints, is the closest one to
-//! the described configuration in the mass metric, and its axes point in the described directions.
-//! Rows that store an initial value do not restrict it, because every initial configuration
-//! satisfies these rows.
+//! Finds a consistent initial configuration. The configuration satisfies the constraints and is
+//! closest to the described configuration in the mass metric. Its axes point in the described
+//! directions. Rows that store an initial value do not restrict the initial configuration, because
+//! every initial configuration satisfies these rows.
 //!
 //! If the iteration does not converge, or converges to axes with the opposite direction, an
 //! approximate solution is first computed in the metric of lengths. The iteration then restarts
 //! from this solution.
 //!
-//! This module does not determine ranks: at a configuration that violates the constraints, a
+//! This module does not determine ranks. At a configuration that violates the constraints, a
 //! redundant row is still independent. The correction is the regularised least-squares step of
 //! `linalg`, repeated until only rounding errors remain.
 //!
 //! The initial poses may differ from the description ([`StartOptions::poses`]). In this case,
-//! initial values are still taken from the described configuration; then the bodies are moved so
+//! initial values are still taken from the described configuration. The bodies are then moved so
 //! that the constraints with these values remain satisfied.
 //!
-//! A search for an equilibrium returns such poses, so the points, phases and free lengths in the
-//! text of the scene do not change.
+//! A search for an equilibrium returns such poses. Therefore the points, phases and free lengths in
+//! the text of the scene do not change.
 
 mod approach;
 mod blame;
@@ -58,30 +58,32 @@ pub struct Assembly {
     pub size: f64,
 }
 
-/// Largest number of iterations of the assembly; convergence is linear, and its rate depends on the
-/// size of the correction.
+/// Largest number of iterations of the assembly. The convergence is linear, and its rate depends on
+/// the size of the correction.
 const ITERATIONS: usize = 60;
 
-/// The iteration ends if the residual has not decreased by a factor of ten in this number of steps,
-/// because it would not converge to rounding within [`ITERATIONS`].
+/// The iteration ends if the residual has not decreased by a factor of ten in this number of steps.
+/// In this case, it would not converge to rounding within [`ITERATIONS`].
 const PATIENCE: usize = 12;
 
 /// Finds a consistent configuration and sets the initial values of joints, drives and forces to
-/// their values there.
+/// their values at this configuration.
 ///
 /// The correction minimises `(q − q₀)ᵀ·M·(q − q₀)` under Φ(q, 0) = 0. Coordinates without mass or
-/// inertia have the weight of the smallest one with mass or inertia. Coordinates that `options`
-/// keep do not change.
+/// inertia have the weight of the smallest mass or inertia. Coordinates that `options` keep do not
+/// change.
 ///
-/// With [`StartOptions::poses`], the initial values are taken from this configuration. The bodies
-/// then start at the configuration that satisfies the same constraints and is closest to the poses.
+/// With [`StartOptions::poses`], the initial values are taken from the described configuration. The
+/// bodies then start at the configuration that satisfies the same constraints and is closest to the
+/// poses.
 ///
 /// # Errors
 /// - [`StartError::NoAssembly`]: the constraints contradict each other or the given configuration
 ///   is too far away.
 /// - [`StartError::LargeCorrection`]: the correction exceeds what `options` allow.
-/// - [`StartError::WrongSide`]: a one-sided joint is described on the side to which it cannot open,
-///   by more than a small correction. An open gap is closed, as the gap of any other joint.
+/// - [`StartError::WrongSide`]: the gap of a one-sided joint is described on the side to which it
+///   cannot open, and exceeds a small correction. An open gap is closed, like the gap of any other
+///   joint.
 /// - [`StartError::TooLarge`]: the correction needs a matrix that is too large for the memory.
 /// - [`StartError::Requirement`]: a requirement of a definition is not satisfied.
 /// - [`StartError::NoCoordinate`], [`StartError::NoPose`]: `options` refer to a coordinate or a
@@ -106,7 +108,7 @@ pub fn assemble(mechanism: &mut Mechanism, options: &StartOptions) -> Result<Ass
     if !options.poses.is_empty() {
         let posed = posed(mechanism, &options.poses, &q)?;
         check_sides(mechanism, &posed, size)?;
-        // Here all rows restrict the configuration, including rows of initial values.
+        // In this step all rows restrict the configuration, including rows of initial values.
         let rows: Vec<usize> = (0..mechanism.layout().m).collect();
         q = closest(mechanism, &mut s, (&rows, &weights), &posed, size)?;
         let first = mechanism.layout().angles().start;
@@ -138,8 +140,8 @@ pub fn assemble(mechanism: &mut Mechanism, options: &StartOptions) -> Result<Ass
     })
 }
 
-/// Checks that no one-sided joint is on the side to which it cannot open, by more than a small
-/// correction. The gap of a joint that stores an initial value is zero at every start.
+/// Checks that no gap of a one-sided joint is on the side to which it cannot open and exceeds a
+/// small correction. The gap of a joint that stores an initial value is zero at every start.
 fn check_sides(mechanism: &Mechanism, q: &[f64], size: f64) -> Result<(), StartError> {
     let groups = mechanism.layout().groups.iter();
     let sided = groups.filter_map(|group| {
@@ -194,8 +196,8 @@ pub fn requirement(mechanism: &Mechanism, q: &[f64]) -> Result<(), StartError> {
     }
 }
 
-/// Returns the configuration closest to a described one that satisfies the rows and whose axes
-/// point in the described directions.
+/// Returns the configuration closest to the described configuration that satisfies the rows and
+/// whose axes point in the described directions.
 fn closest(
     mechanism: &Mechanism,
     s: &mut Scratch,
@@ -229,7 +231,7 @@ fn closest(
         }
         Err(other) => Err(other),
     };
-    // A violated requirement of a definition is reported in place of the rows that are violated
+    // A violated requirement of a definition is reported instead of the rows that are violated
     // because of it.
     q.map_err(|error| match unmet_requirement(mechanism, described) {
         Some((name, requirement)) => StartError::Requirement { name, requirement },
@@ -237,10 +239,9 @@ fn closest(
     })
 }
 
-/// Returns the configuration closest to the described one. The iteration starts from a
+/// Returns the configuration closest to the described configuration. The iteration starts from a
 /// configuration that satisfies the constraints and is closest in the metric of lengths. If this
-/// iteration fails, the function returns the configuration closest to the one in the metric of
-/// lengths.
+/// iteration fails, the function returns the configuration closest to that starting configuration.
 fn approached(
     mechanism: &Mechanism,
     s: &mut Scratch,
@@ -267,7 +268,7 @@ fn approached(
     }
 }
 
-/// Metric that defines the closest configuration.
+/// Metric that defines which configuration is closest.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Metric<'a> {
     /// Masses and inertias, the metric for the initial configuration.
@@ -275,8 +276,8 @@ pub enum Metric<'a> {
     /// Masses and inertias; coordinates that these options keep do not change.
     Start(&'a StartOptions),
     /// Lengths, with angles times the size of the mechanism. The configurations that a mechanism
-    /// can reach do not depend on its masses. With a large light body, the mass metric would prefer
-    /// a large rotation of this body to a small motion of its heavy neighbour.
+    /// can reach do not depend on its masses. In the mass metric, a large rotation of a large light
+    /// body would be preferred to a small motion of its heavy neighbour.
     Length,
 }
 
@@ -314,8 +315,8 @@ fn restricting_rows(mechanism: &Mechanism) -> Vec<usize> {
         .collect()
 }
 
-/// Returns the inverse weights of the coordinates in the mass metric; they are zero for coordinates
-/// that are kept.
+/// Returns the inverse weights of the coordinates in the mass metric. The inverse weights are zero
+/// for coordinates that are kept.
 fn position_weights(
     mechanism: &Mechanism,
     options: &StartOptions,
@@ -329,8 +330,9 @@ fn position_weights(
 }
 
 /// Repeats `q ← q₀ + argmin ‖δ‖_M` under the constraints linearised at q, until Φ is zero to
-/// rounding. The first q is given. If rows contradict each other, the sum of squares of Φ is
-/// minimised. The result is accepted if `within` finds it within the stated tolerances.
+/// rounding. The caller passes the first q. If rows contradict each other, the sum of squares of Φ
+/// is minimised. The result is then accepted if `within` finds the residuals within the stated
+/// tolerances.
 fn nearest(
     mechanism: &Mechanism,
     s: &mut Scratch,
@@ -342,7 +344,8 @@ fn nearest(
     let mut q = from.to_vec();
     let mut best = f64::INFINITY;
     let mut stalled = 0;
-    // The residual at its last decrease by a factor of ten, and the iteration of this decrease.
+    // The residual at its last decrease by a factor of ten, and the iteration at which it
+    // decreased.
     let mut digit = (f64::INFINITY, 0);
     for iteration in 0..=ITERATIONS {
         mechanism.pose(t, &q, s);
@@ -368,8 +371,8 @@ fn nearest(
         if within && is_at_rest && residual.is_finite() && within::is_within(mechanism, s, rows) {
             return Ok(q);
         }
-        // Rows are accurate to the rounding error of all possible terms, including terms that are
-        // zero at this orientation.
+        // Rows are accurate to the rounding error of all possible terms. These include terms that
+        // are zero at this orientation.
         if is_last && rows.iter().all(|&r| is_rounding(mechanism, s, r)) {
             return Ok(q);
         }
@@ -390,7 +393,8 @@ fn nearest(
             .collect();
         let damped = DampedRows::new(&c, weights, DAMPING)?;
         let mut step = damped.step(&misfit)?;
-        // Damping leaves a small residual; another step removes it if the rows are consistent.
+        // Damping leaves a small residual. Another step removes the residual if the rows are
+        // consistent.
         let left = c.times(&step);
         let misfit: Vec<f64> = misfit.iter().zip(&left).map(|(a, b)| a + b).collect();
         for (a, b) in step.iter_mut().zip(damped.step(&misfit)?) {

@@ -1,6 +1,6 @@
-//! The interface of a mechanism for solvers: sizes, patterns and kernels in storage of the caller.
-//! Kernels do not allocate memory. Each kernel computes one result, so that no unused result is
-//! computed.
+//! The interface of a mechanism for solvers: sizes, patterns and kernels. The kernels write to
+//! storage of the caller and do not allocate memory. Each kernel computes one result, so that no
+//! unused result is computed.
 
 use std::ops::Range;
 
@@ -13,8 +13,8 @@ use crate::space::SpaceKind;
 /// The equations of a mechanism.
 ///
 /// At one instant, the caller first calls [`System::pose`], then any of [`System::phi`],
-/// [`System::c`], [`System::b`]. It then calls [`System::twist`], and finally [`System::gamma`] and
-/// [`System::force`]. The [`Scratch`] contains the results.
+/// [`System::c`], [`System::b`]. The caller then calls [`System::twist`], and finally
+/// [`System::gamma`] and [`System::force`]. The [`Scratch`] contains the results.
 pub trait System: Sync {
     /// Sizes, patterns and labels.
     fn layout(&self) -> &Layout;
@@ -25,7 +25,8 @@ pub trait System: Sync {
     /// Creates storage for one evaluation at a time.
     fn scratch(&self) -> Scratch;
 
-    /// Sets time and coordinates: evaluates poses of bodies and values of functions of time.
+    /// Sets time and coordinates. The function evaluates the poses of bodies and the values of
+    /// functions of time.
     fn pose(&self, t: f64, q: &[f64], s: &mut Scratch);
 
     /// Computes `s.phi`: Φ(q, t), m values.
@@ -65,8 +66,8 @@ pub trait System: Sync {
     /// ```
     fn displace(&self, q: &mut [f64], d: &[f64]);
 
-    /// Computes the displacement (n_v) that moves the configuration `from` to q; the unwrapped
-    /// angles follow from it.
+    /// Computes the displacement (n_v) that moves the configuration `from` to q. The displacement
+    /// also determines the change of the unwrapped angles.
     fn difference(&self, q: &[f64], from: &[f64], d: &mut [f64]);
 }
 
@@ -76,10 +77,11 @@ pub struct Layout {
     /// The space of the bodies, which defines the meaning of the columns of C and of the components
     /// of reactions.
     pub space: SpaceKind,
-    /// Number of coordinates: those of the bodies, then the unwrapped angles.
+    /// Number of coordinates. The coordinates of the bodies come first, followed by the unwrapped
+    /// angles.
     pub n_q: usize,
-    /// Number of unwrapped angles among the coordinates: angles in space since the start, including
-    /// full revolutions, for elements that need them.
+    /// Number of unwrapped angles among the coordinates. Unwrapped angles are angles in space since
+    /// the start, including full revolutions. Unwrapped angles exist for elements that need them.
     pub turns: usize,
     /// Number of velocities.
     pub n_v: usize,
@@ -122,7 +124,7 @@ impl Layout {
     }
 
     /// Returns the last number before a time t (s) if t is a break time after the start; otherwise
-    /// t. A row at a break time has the values just before it.
+    /// returns t. A row at a break time has the values just before the break time.
     #[must_use]
     pub fn before_break(&self, t: f64) -> f64 {
         let found = self.break_times.binary_search_by(|at| at.total_cmp(&t));
@@ -157,7 +159,7 @@ impl Layout {
         places.map(|(&column, &entry)| (column, s.entries[entry]))
     }
 
-    /// Ids of all joints and drives, in the order of [`Layout::groups`].
+    /// Returns the ids of all joints and drives, in the order of [`Layout::groups`].
     pub fn constraint_ids(&self) -> impl Iterator<Item = ConstraintId> + use<> {
         (0..self.groups.len()).map(ConstraintId)
     }
@@ -181,15 +183,15 @@ impl Layout {
         (0..self.n_v).map(kind).collect()
     }
 
-    /// Returns whether row `i` compares angles: it contains no translation.
+    /// Returns whether row `i` compares angles. Such a row contains no translation.
     #[must_use]
     pub fn is_angular(&self, i: usize) -> bool {
         let columns = &self.pattern.column[self.pattern.row(i)];
         columns.iter().all(|j| self.space.is_rotation(*j))
     }
 
-    /// Returns the SI unit of a component of a reaction: of a force, a torque, or the named
-    /// component, which is a torque if all rows are angular.
+    /// Returns the SI unit of a component of a reaction. The component belongs to a force or a
+    /// torque, or is the named component. The named component is a torque if all rows are angular.
     #[must_use]
     pub fn load_unit(&self, id: ConstraintId, component: &str) -> &'static str {
         let own = &self.groups[id.0].rows;
@@ -199,9 +201,9 @@ impl Layout {
         })
     }
 
-    /// Returns the scaling that makes C dimensionless for a mechanism of this size: columns of
-    /// rotations divided by the size, rounded to a power of two. Ranks, dependencies and verdicts
-    /// of the scaled C are those of C; margins do not depend on units.
+    /// Returns the scaling that makes C dimensionless for a mechanism of this size. Columns of
+    /// rotations are divided by the size, rounded to a power of two. The scaled C has the same
+    /// ranks, dependencies and verdicts as C. Margins of the scaled C do not depend on units.
     #[must_use]
     pub fn dimension_scaling(&self, size: f64) -> Scaling {
         let exponent = size.log2().round();
@@ -242,7 +244,7 @@ impl Layout {
 /// Pattern of C by rows. The entries of row i have the indices `start[i]..start[i + 1]`.
 #[derive(Clone, Debug, Default)]
 pub struct Pattern {
-    /// Index of the first entry of each row; its length is the number of rows plus one.
+    /// Index of the first entry of each row. The length of the list is the number of rows plus one.
     pub start: Vec<usize>,
     /// Column of each entry.
     pub column: Vec<usize>,
@@ -275,9 +277,9 @@ impl std::fmt::Display for RowLabel {
     }
 }
 
-/// Storage of one evaluation, created by [`System::scratch`]. It contains the results of the
-/// kernels and belongs to the mechanism that created it, because results of the last evaluation are
-/// not recomputed.
+/// Storage of one evaluation, created by [`System::scratch`]. The storage contains the results of
+/// the kernels. The storage belongs to the mechanism that created it, because results of the last
+/// evaluation are not recomputed.
 #[derive(Clone, Debug)]
 pub struct Scratch {
     /// Time of the poses.
@@ -298,7 +300,7 @@ pub struct Scratch {
     pub(crate) slots: Slots,
     /// Angular velocities of the bodies in their axes, in space only.
     pub(crate) spins: Vec<[f64; 3]>,
-    /// Time at which its functions of time were evaluated; initially NaN.
+    /// Time at which the functions of time were evaluated; initially NaN.
     pub(crate) jets_at: f64,
     /// Results of one kernel.
     pub(crate) block: Vec<f64>,

@@ -17,8 +17,9 @@ pub struct Tolerance {
 }
 
 impl Tolerance {
-    /// Returns the tolerance of angles in a mechanism of this size (m): the stated one, or the
-    /// length tolerance divided by the size. Returns `None` if neither tolerance is stated.
+    /// Returns the tolerance of angles in a mechanism of this size (m). The tolerance of angles is
+    /// the stated tolerance of angles, or the length tolerance divided by the size. Returns `None`
+    /// if neither tolerance is stated.
     ///
     /// ```
     /// use pfaff_model::Tolerance;
@@ -33,7 +34,7 @@ impl Tolerance {
             .or_else(|| self.length.map(|length| length / size))
     }
 
-    /// Returns these tolerances; tolerances that are not stated are taken from `other`.
+    /// Returns these tolerances. Tolerances that are not stated are taken from `other`.
     #[must_use]
     pub fn or(self, other: Self) -> Self {
         Self {
@@ -52,7 +53,7 @@ impl Tolerance {
 /// The item for which a tolerance is stated.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum ToleranceScope {
-    /// For the whole scene.
+    /// Tolerance for the whole scene.
     Scene,
     /// Tolerance of the points of this body.
     Body(String),

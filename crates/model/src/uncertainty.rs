@@ -1,6 +1,6 @@
 //! The uncertainty of the entries of C. Data are rounded to `f64`. An entry of 1e-17 that is a sum
-//! of terms of about one may be zero, but an entry of 1e-9 that is a sum of terms of size 1e-8 is
-//! significant.
+//! of terms of about one may be zero. However, an entry of 1e-9 that is a sum of terms of size 1e-8
+//! is significant.
 
 use std::ops::Range;
 
@@ -22,8 +22,8 @@ const CLOSED: f64 = 10.0;
 pub enum ConfigurationAccuracy {
     /// The configuration is exact as stored.
     AsStored,
-    /// The accuracy is this fraction of a radian and of the lengths of the mechanism, as in the
-    /// result of an integrator with about this tolerance.
+    /// The accuracy is this fraction of a radian and of the lengths of the mechanism. The result of
+    /// an integrator with about this tolerance has such an accuracy.
     To(f64),
 }
 
@@ -57,14 +57,15 @@ impl Scales<'_> {
     /// mechanism, (m+h) × n_v, in the units of C. The function allocates memory.
     ///
     /// The uncertainty of an entry is the relative error of the data times the size of the terms of
-    /// this entry; the kernels compute this size from absolute values. The uncertainty is not
+    /// this entry. The kernels compute this size from absolute values. The uncertainty is not
     /// determined for single entries: all components of a force, or of the position of a point,
-    /// have the same uncertainty. This is true for every direction of the axes, so a zero entry is
-    /// not exact, either. The uncertainty of a lever is the rounding error of the longest arm of
-    /// the body and of the positions of the bodies, plus the residual |Φ_i| of the constraints. If
-    /// a tolerance is stated, only a rounding error is added in place of the residual, because
-    /// residuals within the tolerance are not an error of the entries. `size` is the size of the
-    /// mechanism. The work space must contain Φ and C at its configuration.
+    /// have the same uncertainty. This rule applies to every direction of the axes, so a zero entry
+    /// is not exact, either. The uncertainty of a lever is the sum of three terms: the rounding
+    /// error of the longest arm of the body, the rounding error of the positions of the bodies, and
+    /// the residual |Φ_i| of the constraints. If a tolerance is stated, a rounding error is added
+    /// instead of the residual, because residuals within the tolerance are not an error of the
+    /// entries. `size` is the size of the mechanism. The work space must contain Φ and C at its
+    /// configuration.
     #[must_use]
     pub fn uncertainty(self, size: f64, known: ConfigurationAccuracy) -> Matrix {
         let layout = self.mechanism.layout();
@@ -85,7 +86,7 @@ impl Scales<'_> {
         let layout = self.mechanism.layout();
         let pattern = &layout.pattern;
         let magnitudes = self.magnitudes();
-        // The uncertainty of the angles of bodies; for a mechanism far from the origin, the
+        // The uncertainty of the angles of bodies. For a mechanism far from the origin, the
         // rotation is about the mechanism itself.
         let has_tolerances = self.mechanism.has_tolerances();
         let opening = |i: usize| {

@@ -1,5 +1,5 @@
-//! Conversions to the `nalgebra` types of poses, vectors and tensors, for bodies in space, their
-//! frames and reactions.
+//! Conversions of bodies in space, their frames and their reactions to the `nalgebra` types of
+//! poses, vectors and tensors.
 
 use nalgebra::{Isometry3, Matrix3, Quaternion, Translation3, UnitQuaternion, Vector3};
 

@@ -4,14 +4,14 @@
 /// and a count.
 pub const LISTED: usize = 12;
 
-/// What lets a vehicle move whose wheels prevent every motion, as an imperative.
+/// Advice for a vehicle whose wheels prevent every motion, as an imperative.
 pub const ROLL_TOGETHER: &str = "turn the wheels so that their axles meet in one point, or let a wheel slip (in the plane, a `tyre` instead of its joint)";
 
-/// Number of names that represent a longer list.
+/// Number of names that are printed of a longer list.
 const FIRST: usize = 3;
 
-/// Returns names separated by commas. If there are more than [`LISTED`], it returns the first three
-/// and the number of the others.
+/// Returns names separated by commas. If there are more than [`LISTED`] names, the result contains
+/// the first three names and the number of the remaining names.
 ///
 /// ```
 /// let names = |n: usize| (1..=n).map(|k| format!("W{k}")).collect::<Vec<_>>();
@@ -124,7 +124,7 @@ fn to_digits(x: f64, digits: usize) -> f64 {
     text.parse().unwrap_or(x)
 }
 
-/// Numbers of units of this size or more have no prefix.
+/// Numbers from this size on have no prefix.
 const MOST: f64 = 1e10;
 
 /// A prefix of units, such as `k` in kN.
@@ -132,7 +132,7 @@ const MOST: f64 = 1e10;
 pub struct Prefix {
     /// The symbol.
     pub symbol: &'static str,
-    /// Its value.
+    /// The value of the prefix.
     pub factor: f64,
 }
 
@@ -143,9 +143,9 @@ impl Prefix {
         factor: 1.0,
     };
 
-    /// Prefixes, each with the smallest number of units that is printed with it. Hundredths of a
-    /// millimetre are common, but hundredths of a metre are not. The bounds are slightly smaller
-    /// because of rounding.
+    /// Prefixes, each with the smallest number of units that is printed with the prefix. Hundredths
+    /// of a millimetre are common, but hundredths of a metre are not. The bounds are slightly
+    /// smaller because of rounding.
     pub const ALL: [(f64, Self); 6] = [
         (0.9995e6, Self::new("M", 1e6)),
         (0.9995e3, Self::new("k", 1e3)),

@@ -128,7 +128,7 @@ impl<S: WrenchSpace> ForceElement<f64, S> for CalledWrench {
     }
 }
 
-/// A macro is necessary: a downstream crate might define kernels for its own space, so a generic
+/// A macro is necessary. A downstream crate might define kernels for its own space, so a generic
 /// implementation for all spaces is not possible.
 macro_rules! force_kernels {
     ($space:ident) => {

@@ -35,8 +35,8 @@ pub fn entries() -> &'static [Entry] {
     ENTRIES.get_or_init(|| PAGE.split("\n## P").skip(1).filter_map(entry).collect())
 }
 
-/// Parses a section of the page; the section begins after the `P` of its heading. Its paragraphs
-/// are the title, the advice, and an example or the reason why there is no example.
+/// Parses a section of the page. The section begins after the `P` of its heading. The paragraphs of
+/// the section are the title, the advice, and an example or the reason why there is no example.
 fn entry(section: &'static str) -> Option<Entry> {
     let (number, rest) = section.split_once("\n\n")?;
     let (title, rest) = rest.split_once(".\n\n")?;

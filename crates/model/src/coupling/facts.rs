@@ -1,6 +1,6 @@
 //! Specifications of couplings. The specification of a definition is a constant. However, the
-//! specification of a coupling depends on its two joint coordinates; it is created once for each
-//! pair of coordinates and stored.
+//! specification of a coupling depends on its two joint coordinates. The specification is created
+//! once for each pair of coordinates and stored.
 
 use std::collections::HashMap;
 use std::sync::{Mutex, PoisonError};
@@ -22,8 +22,8 @@ pub(super) struct CouplingFacts {
 }
 
 impl CouplingFacts {
-    /// Returns the index of the row entry for a velocity component `dof` of the body `slot`; it
-    /// exists for the entries of the joint coordinates.
+    /// Returns the index of the row entry for a velocity component `dof` of the body `slot`. The
+    /// index exists for the entries of the joint coordinates.
     pub(super) fn entry(&self, slot: usize, dof: usize) -> usize {
         self.entry_of[self.column(slot, dof)].unwrap_or_default()
     }
@@ -59,8 +59,8 @@ pub(super) fn facts(
     [n_slots, n_dof]: [usize; 2],
     degree: usize,
 ) -> &'static CouplingFacts {
-    // Specifications are constants, so an address identifies the content. Names are not sufficient:
-    // definitions of the plane, of space and of other crates may have equal names.
+    // Specifications are constants, so an address identifies the content. Names are not sufficient,
+    // because definitions of the plane, of space and of other crates may have equal names.
     let place = |spec: &'static ConstraintSpec| std::ptr::from_ref(spec).addr();
     let key = (measures.map(place), slots, degree);
     let mut kept = KEPT.lock().unwrap_or_else(PoisonError::into_inner);
@@ -94,8 +94,8 @@ fn made(
         facts.entry_of[column] = Some(entry);
     }
     let c = row.iter().map(|k| Entry::varying(0, k / n_dof, k % n_dof));
-    // The second derivative of the polynomial multiplies the product of the gradient of x with
-    // itself.
+    // The second derivative of the polynomial multiplies the outer product of the gradient of x
+    // with itself.
     let own = &measures[0].c;
     let of_x = |e: &Entry| facts.column(slots[0][e.slot], e.dof);
     let outer = own
@@ -184,8 +184,8 @@ fn sorted(mut pairs: Vec<[usize; 2]>) -> Vec<[usize; 2]> {
     pairs
 }
 
-/// Returns the parameters of both joints without the motions of the drives, for functions that need
-/// the points of the coupling.
+/// Returns the parameters of both joints without the motions of the drives. Functions that need the
+/// points of the coupling use these parameters.
 fn common(measures: [&'static ConstraintSpec; 2], slots: [[usize; 2]; 2], n_slots: usize) -> Spec {
     let mut parameters: Vec<Parameter> = Vec::new();
     for (measure, slots) in measures.iter().zip(slots) {

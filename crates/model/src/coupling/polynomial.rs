@@ -2,15 +2,15 @@
 
 use joints::Scalar;
 
-/// h(x) = c₁·x + c₂·x² + …, without a constant term.
+/// The polynomial h(x) = c₁·x + c₂·x² + …, without a constant term.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Polynomial {
     coefficients: Vec<f64>,
 }
 
 impl Polynomial {
-    /// Creates the polynomial from c₁, c₂, …; `None` if a coefficient is not finite or all are
-    /// zero.
+    /// Creates the polynomial from c₁, c₂, …. Returns `None` if a coefficient is not finite or all
+    /// coefficients are zero.
     pub(super) fn new(coefficients: &[f64]) -> Option<Self> {
         let are_finite = coefficients.iter().all(|c| c.is_finite());
         let moves = coefficients.iter().any(|c| *c != 0.0);
@@ -35,7 +35,8 @@ impl Polynomial {
     }
 
     /// Returns h and its first three derivatives at x, by Horner's scheme. If the coefficients are
-    /// read from the stored values of an operation list, the first one has the index `first`.
+    /// read from the stored values of an operation list, the first coefficient has the index
+    /// `first`.
     pub(super) fn at<T: Scalar>(&self, x: T, first: usize) -> [T; 4] {
         let zero = T::from(0.0);
         let mut h = [zero; 4];

@@ -1,5 +1,5 @@
-//! One joint coordinate of a coupling: the kernels of its drive, and the indices that relate them
-//! to the coupling.
+//! One joint coordinate of a coupling. A side consists of the kernels of its drive, and of the
+//! indices that relate the drive to the coupling.
 
 use joints::Ring;
 
@@ -22,8 +22,8 @@ pub(super) struct Side<S: BodySpace> {
     turn: Option<usize>,
     /// For each entry of the row of the drive, the index of the entry in the row of the coupling.
     pub(super) entries: Vec<usize>,
-    /// Range of the values for the operation lists of the drive in the values for those of the
-    /// coupling.
+    /// Range of the values for the operation lists of the drive. The range refers to the values for
+    /// the operation lists of the coupling.
     pub(super) stored: std::ops::Range<usize>,
 }
 
@@ -44,11 +44,12 @@ impl<S: BodySpace> Clone for Side<S> {
 pub(super) struct At<T> {
     /// The joint coordinate since the start.
     pub(super) measure: T,
-    /// The row of the drive: the joint coordinate, or the remaining angle without the known part.
+    /// The row of the drive. The value of the row is the joint coordinate, or the remaining angle
+    /// without the known part.
     left: T,
-    /// Gradient of the joint coordinate, which has the entries of the row of the drive.
+    /// Gradient of the joint coordinate. The gradient has the entries of the row of the drive.
     pub(super) gradient: [T; MOST],
-    /// Values passed to the drive in place of a motion.
+    /// Values passed to the drive instead of a motion.
     pub(super) f: [[T; 3]; 2],
 }
 
@@ -131,7 +132,7 @@ impl<S: Kinematics> Side<S> {
 
     /// Computes Γ of the joint coordinate. The row of an unwrapped angle is sin ε, where ε is the
     /// difference between the angle and its known part. The Γ of this row contains the term
-    /// ε·rate², which the Γ of the angle does not contain.
+    /// ε·rate². The Γ of the angle does not contain this term.
     pub(super) fn gamma<T: DriveScalar>(
         &self,
         at: &At<T>,

@@ -40,7 +40,8 @@ fn drive<K: Constraint<Space3>>() -> Kernels {
     Box::new(K::from_arguments(&arguments()).expect("arguments"))
 }
 
-/// Couplings of an angle with an angle and with a length, with and without a common body.
+/// Returns couplings of an angle with an angle and with a length. The coupled joints have a common
+/// body in some couplings only.
 fn couplings() -> Vec<AttachedConstraint<Space3>> {
     let angle = drive::<RevoluteAngleDrive>;
     let length = drive::<CylindricalDisplacementDrive>;
@@ -76,7 +77,7 @@ fn noise(seed: usize) -> f64 {
     (seed as f64 * 12.9898 + 4.1).sin()
 }
 
-/// Poses and twists of some bodies, and the change of the poses with time.
+/// The poses and the twists of some bodies, and the change of the poses with time.
 struct State {
     q: Vec<f64>,
     v: Vec<f64>,
@@ -373,7 +374,7 @@ fn derivatives_by_data_agree_with_differences() {
 }
 
 /// In all cases, the load along y, −C, is the only load on the second body of the joint of y. The
-/// opposite load acts on the first body of this joint, even if the joint of x loads this body, too.
+/// opposite load acts on the first body of this joint, even if the joint of x also loads this body.
 #[test]
 fn the_wrench_is_the_load_along_the_measure_that_follows() {
     for case in cases() {

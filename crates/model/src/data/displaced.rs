@@ -6,8 +6,8 @@ use crate::mechanism::Mechanism;
 use crate::space::norm;
 
 impl DataBlock {
-    /// Returns the number of independent directions in which the datum may change: two for a point
-    /// in the plane, two for a direction in space, one for a scalar.
+    /// Returns the number of independent directions in which the datum may change, for example two
+    /// for a point in the plane, two for a direction in space, and one for a scalar.
     ///
     /// ```
     /// use joints::Revolute;
@@ -31,10 +31,10 @@ impl DataBlock {
         }
     }
 
-    /// Returns the values of the datum after a change `by` (in the unit of the datum); only the
+    /// Returns the values of the datum after a change `by` (in the unit of the datum). Only the
     /// first [`Self::directions`] components of `by` are used. For a direction, the change is a
-    /// rotation by this angle, so its length is constant. For axes, the change is a rotation
-    /// vector.
+    /// rotation by this angle, so the length of the direction is constant. For axes, the change is
+    /// a rotation vector.
     #[must_use]
     pub fn displaced(&self, own: &[f64], by: [f64; 3]) -> Vec<f64> {
         match (self.across, own) {
@@ -59,9 +59,9 @@ impl DataBlock {
 }
 
 impl DataBlock {
-    /// Returns the unit vector along which a change by [`Self::displaced`] has the largest effect
-    /// on a quantity with this gradient (with respect to all stored values). The vector is zero if
-    /// no change of the datum has an effect on the quantity.
+    /// Returns the unit vector along which a change of the datum has the largest effect on a
+    /// quantity. `gradient` contains the derivatives of the quantity with respect to all stored
+    /// values. The vector is zero if no change of the datum has an effect on the quantity.
     #[must_use]
     pub fn steepest(&self, gradient: &[f64]) -> [f64; 3] {
         let part = self.part(gradient);

@@ -1,9 +1,9 @@
-//! Many gradients with respect to the values stored by the constraints at one instant, with a
-//! single evaluation of the kernels.
+//! Many gradients with respect to the values stored by the constraints at one instant. The kernels
+//! are evaluated only once.
 //!
-//! `λᵀ·C·y + y_λᵀ·(C·a − Γ) + w_vᵀ·C·v + w_qᵀ·Φ` is linear in y, y_λ, w_v and w_q. Therefore its
-//! gradient with respect to the values of one constraint is a small matrix times the entries of y,
-//! y_λ, w_v and w_q for this constraint.
+//! The expression `λᵀ·C·y + y_λᵀ·(C·a − Γ) + w_vᵀ·C·v + w_qᵀ·Φ` is linear in y, y_λ, w_v and w_q.
+//! Therefore its gradient with respect to the values of one constraint is a small matrix times the
+//! entries of y, y_λ, w_v and w_q for this constraint.
 
 use std::ops::Range;
 
@@ -95,8 +95,8 @@ impl Data<'_> {
 }
 
 impl DataGradients {
-    /// Computes one gradient and writes it to `out`; y has n_v values; y_λ, w_v and w_q have m + h
-    /// values.
+    /// Computes one gradient and writes it to `out`. y has n_v values; y_λ, w_v and w_q have m + h
+    /// values each.
     ///
     /// # Panics
     /// Panics if a slice is too short.

@@ -11,8 +11,8 @@ use crate::rows::RowRanges;
 use crate::system::Scratch;
 
 /// The derivatives of Φ and C with respect to the values stored by the constraints, at the
-/// configuration in a work space. The derivatives of a constraint are computed at the first request
-/// and stored.
+/// configuration in a work space. The derivatives of a constraint are computed and stored at the
+/// first request.
 pub struct DataSlopes<'a> {
     data: Data<'a>,
     s: &'a Scratch,
@@ -39,7 +39,7 @@ impl<'m> Data<'m> {
 
 impl DataSlopes<'_> {
     /// Adds `factor` times the gradient of `λᵀ·C·v` with respect to all values stored by the
-    /// constraints to `out`; `lambda` has m + h values, `v` n_v.
+    /// constraints to `out`. `lambda` has m + h values, and `v` has n_v values.
     pub fn add_power(&self, lambda: &[f64], v: &[f64], factor: f64, out: &mut [f64]) {
         let mut rates = Vec::new();
         self.add(
@@ -55,7 +55,7 @@ impl DataSlopes<'_> {
     }
 
     /// Adds `factor` times the gradient of `λᵀ·Φ` with respect to all values stored by the
-    /// constraints to `out`; `lambda` has at least m values.
+    /// constraints to `out`. `lambda` must have at least m values.
     pub fn add_phi(&self, lambda: &[f64], factor: f64, out: &mut [f64]) {
         let of_phi = |rows: &RowRanges| RowRanges {
             holonomic: rows.holonomic.clone(),

@@ -1,5 +1,5 @@
-//! Poses of all bodies, computed from coordinates: positions of the centres of mass, and
-//! orientations.
+//! Poses of all bodies, computed from coordinates. A pose consists of the position of the centre of
+//! mass and the orientation.
 
 use joints::plane::{Pose, Twist};
 use joints::{Ring, space3};
@@ -7,11 +7,12 @@ use joints::{Ring, space3};
 use crate::body::{Body, BodyRecord, DescribedBody, SpatialBody};
 use crate::space::{self, Number, PlanarSpace, Space, SpaceKind, in_plane, normalised, quaternion};
 
-/// Largest change of an angle that counts as rounding if the constraints keep the angle constant.
+/// Largest change of an angle that counts as rounding for an angle that the constraints keep
+/// constant.
 const HELD: f64 = 4.0 * f64::EPSILON;
 
 /// One value for each body of the mechanism, or for each body of each element, in the space of the
-/// mechanism. The list for the other space is empty.
+/// mechanism. The list that belongs to the other space is empty.
 #[derive(Clone, Debug)]
 pub(crate) struct InEach<P, S> {
     pub(super) plane: Vec<P>,
@@ -45,7 +46,8 @@ impl<P, S> Default for InEach<P, S> {
     }
 }
 
-/// The poses of all bodies of a mechanism: positions of the centres of mass, and orientations.
+/// The poses of all bodies of a mechanism. A pose consists of the position of the centre of mass
+/// and the orientation.
 ///
 /// Methods panic if the body does not exist.
 #[derive(Clone, Debug)]
@@ -82,8 +84,8 @@ impl Bodies {
         }
     }
 
-    /// Sets the coordinates q. Sines and cosines of unchanged angles are not recomputed; `turns` is
-    /// called for each recomputed angle.
+    /// Sets the coordinates q. Sines and cosines of unchanged angles are not recomputed. The
+    /// function calls `turns` for each recomputed angle.
     #[inline]
     pub(crate) fn take(
         &mut self,
@@ -143,8 +145,8 @@ impl Bodies {
         (0..self.len()).map(|body| self.origin(body))
     }
 
-    /// Returns the axes of a body as unit vectors in ground axes: the columns of its rotation
-    /// matrix.
+    /// Returns the axes of a body as unit vectors in ground axes. The axes are the columns of the
+    /// rotation matrix of the body.
     #[must_use]
     pub fn axes(&self, body: usize) -> [[f64; 3]; 3] {
         match self.of(body) {
@@ -214,8 +216,8 @@ impl Bodies {
         }
     }
 
-    /// Returns the distance (m) and the angle of rotation (rad) of a body relative to its previous
-    /// pose.
+    /// Returns how far a body has moved from its previous pose: the distance (m) and the angle of
+    /// rotation (rad).
     #[must_use]
     pub fn moved(&self, from: &Self, body: usize) -> [f64; 2] {
         match (from.of(body), self.of(body)) {
@@ -298,7 +300,7 @@ impl BodyRecord {
             DescribedBody::Space3(body) => {
                 q[..3].copy_from_slice(&body.pose().r);
                 let [w, ..] = body.orientation;
-                // A quaternion and its negative are equivalent; the one with w ≥ 0 is used.
+                // A quaternion and its negative are equivalent; the quaternion with w ≥ 0 is used.
                 let sign = if w < 0.0 { -1.0 } else { 1.0 };
                 let frame = normalised(body.orientation.map(|e| sign * e));
                 let own = self
@@ -312,7 +314,7 @@ impl BodyRecord {
 }
 
 /// Returns the angle of a body in the plane (rad) from the coordinates of the body, including full
-/// revolutions; 0 in space.
+/// revolutions. The result is 0 in space.
 pub(crate) fn angle_at(space: SpaceKind, q: &[f64]) -> f64 {
     in_plane!(space, S => <S as PlanarSpace>::angle(q), 0.0)
 }
@@ -336,7 +338,7 @@ fn turned_by(sin: f64, cos: f64, [x, y, z]: [f64; 3]) -> [f64; 3] {
 }
 
 /// Returns the pose of a spatial body from its coordinates. The rotation is divided by the square
-/// of the length of the quaternion, so that this length has no influence.
+/// of the length of the quaternion. Therefore this length has no influence.
 pub(super) fn spatial_pose<T: Number>(q: &[T]) -> space3::Pose<T> {
     let e = quaternion(q);
     let [w, x, y, z] = e;
@@ -349,7 +351,7 @@ pub(super) fn spatial_pose<T: Number>(q: &[T]) -> space3::Pose<T> {
 
 /// Returns whether the stored sine and cosine of a body are still used after its angle has changed.
 /// If rows fix the angle, a change that is not larger than rounding is ignored. Otherwise every bit
-/// is significant: for example, the sine of −0 differs from the sine of 0.
+/// is significant. For example, the sine of −0 differs from the sine of 0.
 fn stays(is_held: bool, from: f64, to: f64) -> bool {
     if is_held {
         (to - from).abs() <= HELD * from.abs().max(1.0)

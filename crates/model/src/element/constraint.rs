@@ -10,7 +10,7 @@ use super::slots::{Kinematics, Rates, Site, Slots};
 use super::{AnyConstraint, Bodies, BodySpace, stored, with};
 use crate::rows::RowRanges;
 
-/// A constraint in the axes of the coordinates of its bodies, which may be principal axes.
+/// A constraint in the axes of the coordinates of its bodies. These axes may be principal axes.
 #[derive(Clone)]
 pub(crate) struct FramedConstraint {
     element: AnyConstraint,
@@ -32,8 +32,8 @@ impl FramedConstraint {
     }
 }
 
-/// A constraint with its indices in the mechanism. The kernels need the poses of the bodies and, if
-/// they depend on velocities, also the velocities; `out` is overwritten.
+/// A constraint with its indices in the mechanism. The kernels need the poses of the bodies, and
+/// also the velocities if the kernels depend on velocities. `out` is overwritten.
 #[derive(Clone)]
 pub(crate) struct PlacedConstraint {
     framed: FramedConstraint,
@@ -81,8 +81,8 @@ impl PlacedConstraint {
         self.framed.axes
     }
 
-    /// For the axes of the first two bodies that the rows keep parallel, returns three unit vectors
-    /// for each body, in ground axes.
+    /// Returns three unit vectors in ground axes for each of the first two bodies. The vectors are
+    /// the axes that the rows keep parallel.
     pub(crate) fn parallel_axes(&self, s: &Slots) -> Option<[[[f64; 3]; 3]; 2]> {
         let element = &self.framed.element;
         let own = with!(AnyConstraint, element, element, _S => element.parallel_axes())?;
@@ -104,14 +104,14 @@ impl PlacedConstraint {
         self.spec().rheonomic
     }
 
-    /// Returns whether Γ of the rows may differ from zero. In the other rows, C is constant, so
+    /// Returns whether Γ of the rows may differ from zero. In rows without Γ, C is constant, so
     /// `C·v̇ = 0`.
     pub(crate) fn has_gamma(&self) -> bool {
         self.has_varying_entries() || self.depends_on_time()
     }
 
-    /// Returns the cosine, sine and rate of an unwrapped angle in space, at these poses and twists
-    /// of the bodies.
+    /// Returns the cosine, sine and rate of an unwrapped angle in space for the given poses and
+    /// twists of the bodies.
     pub(crate) fn counted(&self, number: usize, x: &[Pose], v: &[Twist]) -> [f64; 3] {
         match &self.framed.element {
             AnyConstraint::Space3(element) => element.turned(number, x, v),
@@ -119,7 +119,7 @@ impl PlacedConstraint {
         }
     }
 
-    /// Stores other values, in the order of the specification.
+    /// Replaces the stored values, in the order of the specification.
     pub(crate) fn set_data(&mut self, numbers: &[f64]) {
         with!(AnyConstraint, &mut self.framed.element, element, _S => element.set_data(numbers));
     }

@@ -70,8 +70,8 @@ impl PlacedForce {
         turned.map_or(self.spec().dq_dv, TurnedSlots::pairs)
     }
 
-    /// Returns the points at which the force acts, with their bodies, in the axes of the
-    /// coordinates of these bodies.
+    /// Returns the points at which the force acts, with their bodies. The points are in the axes of
+    /// the coordinates of these bodies.
     pub(crate) fn points(&self) -> Vec<(BodyRef, [f64; 3])> {
         let own = |slot: usize, point: [f64; 3]| {
             let turned = self.turned.as_ref();
@@ -92,8 +92,8 @@ impl PlacedForce {
         }
     }
 
-    /// Returns the cosine, sine and rate of an unwrapped angle in space, at these poses and twists
-    /// of the bodies.
+    /// Returns the cosine, sine and rate of an unwrapped angle in space for the given poses and
+    /// twists of the bodies.
     pub(crate) fn counted(&self, number: usize, x: &[Pose], v: &[Twist]) -> [f64; 3] {
         match (&self.turned, &self.element) {
             (Some(turned), AnyForce::Space3(kernels)) => {
@@ -176,7 +176,7 @@ impl PlacedForce {
         });
     }
 
-    /// Returns the force along the joint coordinate, if this is a drive with a force law.
+    /// Returns the force along the joint coordinate if the element is a drive with a force law.
     pub(crate) fn drive(&self, s: &Slots) -> Option<DriveForce> {
         if let Some((turned, kernels)) = self.between() {
             let f = self.site.f(s);
@@ -188,7 +188,7 @@ impl PlacedForce {
         })
     }
 
-    /// Returns the reason why the callback has no value, if this is the case.
+    /// Returns the reason why the callback has no value, or `None` if it has a value.
     pub(crate) fn undefined(&self, s: &Slots) -> Option<UndefinedValue> {
         if let Some((turned, kernels)) = self.between() {
             let f = self.site.f(s);

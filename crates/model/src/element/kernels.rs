@@ -41,7 +41,7 @@ pub trait BodySpace: joints::Space + Sized {
     #[doc(hidden)]
     fn to_local(body: &Self::Body, point: Self::Vector<f64>) -> Self::Vector<f64>;
 
-    /// Returns a force law on the joint coordinate of a drive, which replaces the motion of the
+    /// Returns a force law on the joint coordinate of a drive. The law replaces the motion of the
     /// drive.
     #[doc(hidden)]
     fn law<K: Constraint<Self>>(
@@ -65,9 +65,9 @@ pub trait BodySpace: joints::Space + Sized {
 #[doc(hidden)]
 #[derive(Clone)]
 pub enum AnyConstraint {
-    /// In the plane.
+    /// Kernels in the plane.
     Plane(Box<dyn ConstraintKernels>),
-    /// In space.
+    /// Kernels in space.
     Space3(Box<dyn ConstraintKernels<Space3>>),
 }
 
@@ -75,14 +75,14 @@ pub enum AnyConstraint {
 #[doc(hidden)]
 #[derive(Clone)]
 pub enum AnyForce {
-    /// In the plane.
+    /// Kernels in the plane.
     Plane(Box<dyn ForceKernels>),
-    /// In space.
+    /// Kernels in space.
     Space3(Box<dyn ForceKernels<Space3>>),
 }
 
-/// Evaluates an expression in which `$element` stands for the kernels, and `$space` for their
-/// space.
+/// Evaluates an expression in which `$element` denotes the kernels, and `$space` denotes the space
+/// of the kernels.
 macro_rules! with {
     ($any:ident, $kernels:expr, $element:ident, $space:ident => $body:expr) => {
         match $kernels {
@@ -121,10 +121,10 @@ impl<'a, S: Space, T: Ring> RowsAt<'a, S, T> {
 }
 
 /// A number type in which force laws and couplings evaluate the rows of a drive. With `f64`, the
-/// kernels are used; with recording numbers, the operation lists.
+/// kernels are evaluated. With recording numbers, the operation lists are evaluated.
 pub(crate) trait DriveScalar: Scalar {
-    /// Returns the values that the operation lists read, each created from its value and its index.
-    /// The list is empty for kernels, which read the values stored in them.
+    /// Returns the values that the operation lists read. Each value is created from a number and
+    /// its index. The list is empty for kernels, which read the values stored in them.
     fn stored_by<S: Space>(
         kernels: &dyn ConstraintKernels<S>,
         number: impl Fn(f64, usize) -> Self,
@@ -216,12 +216,12 @@ pub trait ForceKernels<S: BodySpace = Plane>: ForceElement<f64, S> {
     );
     /// Returns a copy of the kernels.
     fn boxed(&self) -> Box<dyn ForceKernels<S>>;
-    /// Returns whether this is a drive with a force law.
+    /// Returns whether the element is a drive with a force law.
     fn is_law(&self) -> bool {
         false
     }
-    /// Returns whether the force is computed by a callback, which returns only values. If so, its
-    /// derivatives are NaN.
+    /// Returns whether the force is computed by a callback, which returns only values. The
+    /// derivatives of such a force are NaN.
     fn is_called(&self) -> bool {
         false
     }
@@ -235,9 +235,9 @@ pub trait ForceKernels<S: BodySpace = Plane>: ForceElement<f64, S> {
     ) -> Option<UndefinedValue> {
         None
     }
-    /// Returns this drive with another force law for the same joint coordinate. The new law uses
-    /// the change since the start if the current law does. Returns `None` if this is not a drive
-    /// with a force law.
+    /// Returns this drive with another force law for the same joint coordinate. If the current law
+    /// uses the change since the start, the new law uses it as well. Returns `None` if the element
+    /// is not a drive with a force law.
     fn with_law(&self, _law: &Law) -> Option<Box<dyn ForceKernels<S>>> {
         None
     }

@@ -32,7 +32,7 @@ pub enum Input {
     },
     /// A velocity, by its index in v.
     Velocity(usize),
-    /// A function of time as used by the mechanism, or a derivative of it.
+    /// A function of time as used by the mechanism, or a derivative of such a function.
     Function {
         /// Index of the function, in the order of [`crate::Mechanism::functions`].
         function: usize,
@@ -59,7 +59,8 @@ pub(crate) struct RecordedSlots {
 }
 
 impl RecordedSlots {
-    /// Creates the inputs of a mechanism; `input` returns the recorded number of each input.
+    /// Creates the inputs of a mechanism. The function `input` returns the recorded number of each
+    /// input.
     pub(crate) fn new(
         space: SpaceKind,
         bodies: usize,

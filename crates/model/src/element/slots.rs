@@ -12,7 +12,7 @@ use super::turned::lent;
 use crate::body::BodyRef;
 use crate::space::SpaceKind;
 
-/// For elements with up to this number of bodies, no memory is allocated; no joint of the library
+/// Largest number of bodies of an element for which no memory is allocated. No joint of the library
 /// has more bodies.
 const FEW: usize = 4;
 
@@ -23,7 +23,7 @@ pub(crate) trait Kinematics: BodySpace {
     fn poses_mut<T: Ring>(all: &mut Poses<T>) -> &mut [Self::Pose<T>];
     fn twists<T: Ring>(all: &Twists<T>) -> &[Self::Twist<T>];
     fn twists_mut<T: Ring>(all: &mut Twists<T>) -> &mut [Self::Twist<T>];
-    /// Returns the sizes of the terms of a polynomial that depend on a pose.
+    /// Returns the sizes of those terms of a polynomial that depend on a pose.
     fn magnitude(pose: &Self::Pose<f64>) -> Self::Pose<Magnitude>;
     fn first_origin(poses: &[Self::Pose<f64>]) -> [f64; 3];
 }
@@ -109,7 +109,7 @@ fn twist_of<S: Kinematics>(body: BodyRef, v: &[f64]) -> S::Twist<f64> {
     }
 }
 
-/// Evaluates an expression in which `$kernels` stands for the kernel type of a [`SpaceKind`].
+/// Evaluates an expression in which `$kernels` denotes the kernel type of a [`SpaceKind`].
 macro_rules! in_kernels {
     ($kind:expr, $kernels:ident => $body:expr) => {
         match $kind {
@@ -175,7 +175,7 @@ impl Rates {
         Self { space, twists }
     }
 
-    /// Sets velocities or accelerations of the bodies (n_v values); the values of the ground stay
+    /// Sets velocities or accelerations of the bodies (n_v values). The values of the ground stay
     /// zero.
     #[inline]
     pub(crate) fn take<'a>(&mut self, sites: impl Iterator<Item = &'a Site>, v: &[f64]) {
@@ -213,8 +213,8 @@ impl Site {
         &S::twists(&all.twists)[self.slots.clone()]
     }
 
-    /// Calls a function with the poses of the bodies in space at the coordinates q, and their
-    /// twists at velocities v or at rest.
+    /// Calls a function with the poses of the bodies in space at the coordinates q, and with the
+    /// twists of the bodies at velocities v or at rest.
     pub(crate) fn with_spatial<R>(
         &self,
         (q, v): (&[f64], Option<&[f64]>),
@@ -257,8 +257,8 @@ impl Site {
         self.bodies.iter().filter_map(|b| b.moving())
     }
 
-    /// Selects the velocities or accelerations of the bodies of the element from those of all
-    /// bodies (n_v values); they are zero for the ground.
+    /// Selects the velocities or accelerations of the bodies of the element from the values of all
+    /// bodies (n_v values). The selected values are zero for the ground.
     pub(crate) fn own_rates(&self, all: &[f64], out: &mut Vec<f64>) {
         out.clear();
         for body in &self.bodies {
@@ -269,7 +269,7 @@ impl Site {
         }
     }
 
-    /// Converts a column of the block of the element to a column of C; `None` for the ground.
+    /// Converts a column of the block of the element to a column of C, or to `None` for the ground.
     pub(crate) fn column(&self, k: usize) -> Option<usize> {
         let body = self.bodies[self.space.body_of(k)].moving()?;
         Some(self.space.n_v() * body + self.space.dof_of(k))

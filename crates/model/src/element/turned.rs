@@ -9,20 +9,20 @@ use joints::{RecordedNumber, Ring, Space3};
 use super::ForceKernels;
 use crate::principal::Principal;
 
-/// For forces with up to this number of bodies, no memory is allocated; no force of the library has
-/// more than two.
+/// Largest number of bodies of a force for which no memory is allocated. No force of the library
+/// has more than two bodies.
 const FEW: usize = 2;
 
 /// The principal axes of the bodies of a force, if they differ from the axes of the body frames.
 #[derive(Clone)]
 pub(crate) struct TurnedSlots {
     principal: Vec<Option<Principal>>,
-    /// All pairs of columns, row by row; they are the pattern of the derivatives.
+    /// All pairs of columns, row by row. These pairs are the pattern of the derivatives.
     pairs: Vec<[usize; 2]>,
 }
 
 impl TurnedSlots {
-    /// Creates the rotations; `None` if the axes of all body frames are principal axes.
+    /// Creates the rotations, or returns `None` if the axes of all body frames are principal axes.
     pub(crate) fn new(principal: Vec<Option<Principal>>) -> Option<Self> {
         principal.iter().flatten().next()?;
         let n = N_DOF * principal.len();
@@ -45,8 +45,8 @@ impl TurnedSlots {
         N_DOF * self.principal.len()
     }
 
-    /// Returns the bodies whose frames are rotated, with the index of their first rotation in the
-    /// block.
+    /// Returns the bodies whose frames are rotated. For each body, it also returns the index of the
+    /// first rotation of the body in the block.
     fn turned(&self) -> impl Iterator<Item = (usize, &Principal)> {
         let slots = self.principal.iter().enumerate();
         slots.filter_map(|(slot, of)| Some((N_DOF * slot + 3, of.as_ref()?)))
@@ -76,7 +76,7 @@ impl TurnedSlots {
         }
     }
 
-    /// Writes the values of a force for the columns of a pattern into a list of all columns.
+    /// Writes the values of a force for the columns of a pattern to a list for all columns.
     fn write<T: Ring>(&self, pattern: &[usize], values: &[T], out: &mut [T]) {
         out.fill(T::from(0.0));
         for (&column, value) in pattern.iter().zip(values) {
@@ -137,8 +137,8 @@ impl TurnedSlots {
         self.write(pattern, &values, out);
     }
 
-    /// Computes a derivative of Q for all pairs of columns; `pattern` is that of the derivative
-    /// from the kernels.
+    /// Computes a derivative of Q for all pairs of columns. `pattern` is the pattern of the
+    /// derivative from the kernels.
     pub(super) fn derivative(
         &self,
         pattern: &[[usize; 2]],
@@ -169,7 +169,8 @@ impl TurnedSlots {
     }
 }
 
-/// Returns `n` values of the array `few` if it is large enough, otherwise of a vector.
+/// Returns `n` values of the array `few` if the array is large enough, and otherwise `n` values of
+/// a vector.
 pub(super) fn lent<'a, T: Copy, const N: usize>(
     few: &'a mut [T; N],
     many: &'a mut Vec<T>,

@@ -1,4 +1,5 @@
-//! Tests measures and their derivatives against rotations that are known and against differences.
+//! Tests measures and their derivatives. They are compared with rotations that are known, and with
+//! differences.
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
@@ -15,11 +16,11 @@ const X: [f64; 3] = [1.0, 0.0, 0.0];
 const Y: [f64; 3] = [0.0, 1.0, 0.0];
 const Z: [f64; 3] = [0.0, 0.0, 1.0];
 
-/// Rounding of a few operations on numbers of size one.
+/// Rounding error of a few operations on numbers of size one.
 const ROUNDED: f64 = 1e-14;
 
-/// Step of the differences, and their error: of order four, with rounding errors of 1e-15 that are
-/// divided by the square of the step.
+/// Step of the differences. The error of the differences is of order four, with rounding errors of
+/// 1e-15 that are divided by the square of the step.
 const STEP: f64 = 2e-3;
 const OF_DIFFERENCES: f64 = 1e-7;
 
@@ -31,8 +32,8 @@ fn measured(kind: MeasureKind, between: [Option<usize>; 2]) -> Measure {
     }
 }
 
-/// A hub with a wheel whose axis is y of the hub, turned by these rotations, and this measure of
-/// the hub from the ground.
+/// Returns the mechanism of a hub with a wheel whose axis is y of the hub. The hub is turned by
+/// this rotation. The mechanism contains a measure of this kind from the ground to the hub.
 fn hub(rotation: UnitQuaternion<f64>, kind: MeasureKind) -> Result<Mechanism, Vec<BuildError>> {
     let mut d = SpatialDescription::new("hub");
     let body = SpatialBody::new("hub", 1.0, Matrix3::identity());
@@ -70,17 +71,18 @@ fn toe_and_camber_of_a_wheel_are_its_rotations() {
             );
         };
         close(angle([Y, Y], Some(Z)), toe);
-        // The length of a direction has no influence; its sense has.
+        // The length of a direction has no influence, but its sense has an influence.
         close(angle([[0.0, 3.0, 0.0], Y], Some([0.0, 0.0, -0.1])), -toe);
         close(MeasureKind::Inclination([Z, Y]), camber);
         close(MeasureKind::Inclination([Z, [0.0, -2.0, 0.0]]), -camber);
         close(angle([Y, Y], None), (toe.cos() * camber.cos()).acos());
     }
-    // The projections decide, also for directions that are not perpendicular to `about`.
+    // The projections determine the angle, also for directions that are not perpendicular to
+    // `about`.
     let quarter = turned(Z, FRAC_PI_2);
     let found = value(quarter, angle([[1.0, 0.0, 5.0], [1.0, 0.0, -2.0]], Some(Z)));
     assert!((found - FRAC_PI_2).abs() < ROUNDED, "{found}");
-    // Small and nearly straight angles keep their digits.
+    // Small angles and nearly straight angles keep their digits.
     for expected in [1e-9, PI - 1e-9] {
         let found = value(turned(Z, expected), angle([X, X], None));
         assert!((found - expected).abs() < 1e-15, "{found}");
@@ -109,7 +111,7 @@ fn a_component_along_a_direction_is_that_of_the_first_marker() {
     d.observed.measures = vec![measured(along, [Some(0), Some(1)])];
     let two = Mechanism::build(&d).expect("builds");
     let (q, v) = two.described_state();
-    // The difference (0.5, 2, 5) is (2, −0.5, 5) in the axes of the first.
+    // The difference (0.5, 2, 5) is (2, −0.5, 5) in the axes of the first marker.
     let found = two.frames().measure(0, &q, &v);
     assert!(
         (found - (3.0 * 2.0 + 4.0 * 5.0) / 5.0).abs() < ROUNDED,
@@ -135,7 +137,7 @@ fn in_the_plane_an_angle_between_directions_counts_revolutions() {
     assert!((found - (9.5 - FRAC_PI_2)).abs() < ROUNDED, "{found}");
 }
 
-/// All kinds, with directions at random.
+/// Returns all kinds of measures, with random directions.
 fn kinds() -> Vec<MeasureKind> {
     let [a, b, o] = [[0.3, 1.0, -0.4], [-0.2, 0.7, 0.9], [1.0, 0.2, 0.5]];
     vec![
@@ -239,7 +241,7 @@ fn check_rates(mechanism: &Mechanism, n_measures: usize, n_v: usize) {
         let expected = differences(&value);
         for order in 0..2 {
             let (found, expected) = (found[order + 1], expected[order]);
-            // A derivative that requires more than accelerations has no unit and no value.
+            // A derivative that requires more than accelerations has neither a unit nor a value.
             match kind.units()[order + 1] {
                 None => assert!(found.is_nan(), "{kind:?}: {found}"),
                 Some(_) => assert!(
@@ -260,7 +262,7 @@ fn check_rates(mechanism: &Mechanism, n_measures: usize, n_v: usize) {
             let [expected, _] = differences(&omega);
             assert!((found.alpha[axis] - expected).abs() < OF_DIFFERENCES);
         }
-        // Without accelerations there are none.
+        // Without accelerations of the bodies, the acceleration of the marker is NaN.
         let unknown = mechanism.frames().marker(k, &q, &v);
         assert!(unknown.acceleration.iter().all(|x| x.is_nan()));
     }
@@ -277,7 +279,7 @@ fn an_angle_about_a_parallel_direction_is_rejected() {
         refused.err(),
         Some(vec![BuildError::Measure { name, reason }])
     );
-    // The second one is parallel at the start.
+    // The second direction is parallel at the start.
     let start = |second| {
         let mut hub = hub(straight, angle([X, second], Some(Z))).expect("builds");
         assemble(&mut hub, &StartOptions::default()).map(|_| ())
@@ -319,7 +321,7 @@ fn roll_pitch_and_yaw_are_rotations_about_fixed_axes() {
             assert!((found - expected).abs() < 1e-13, "{found} {expected}");
         }
     }
-    // At a pitch of a quarter turn only the difference of roll and yaw is defined.
+    // At a pitch of a quarter turn, only the difference of roll and yaw is defined.
     let [roll, pitch, yaw] = angles(turned(Z, 0.7) * turned(Y, FRAC_PI_2) * turned(X, 0.2));
     assert_eq!(roll, 0.0);
     assert!((pitch - FRAC_PI_2).abs() < 1e-7 && (yaw - 0.5).abs() < 1e-7);

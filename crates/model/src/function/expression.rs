@@ -9,7 +9,7 @@ use crate::law::{Join, LawError, Operation, UnaryFunction};
 pub(super) struct Expression(Program);
 
 impl Expression {
-    /// Checks that the operations have one result, and no other variable than the time.
+    /// Checks that the operations have one result, and that time is their only variable.
     pub(super) fn new(operations: &[Operation]) -> Result<Self, LawError> {
         let is_other = |o: &Operation| matches!(o, Operation::Measure | Operation::Rate);
         if operations.iter().any(is_other) {
@@ -22,7 +22,8 @@ impl Expression {
         self.0.operations()
     }
 
-    /// Returns value, rate and second derivative; NaN if the function has no value at this time.
+    /// Returns the value, the rate and the second derivative, or NaN if the function has no value
+    /// at this time.
     pub(super) fn jet(&self, t: f64) -> [f64; 3] {
         let inputs = [Jet::from(0.0), Jet::from(0.0), Jet([t, 1.0, 0.0])];
         self.0.evaluate(inputs).map_or([f64::NAN; 3], |jet| jet.0)
@@ -60,9 +61,10 @@ impl Jet {
         self.0[1..] == [0.0; 2]
     }
 
-    /// Returns g(x) for the value, and the first two derivatives of g at this number.
+    /// Returns g(x), where `value` is g and `first` and `second` are the first two derivatives of g
+    /// at this number.
     fn chain(self, value: f64, first: f64, second: f64) -> Self {
-        // A constant has no derivatives, even where those of g are infinite.
+        // A constant has no derivatives, even if the derivatives of g are infinite.
         if self.is_constant() {
             return value.into();
         }
@@ -71,7 +73,7 @@ impl Jet {
     }
 }
 
-/// Returns the second derivative of a function at `a`, where its first derivative is `first`.
+/// Returns the second derivative of a function at `a`. The first derivative at `a` is `first`.
 fn curvature(f: UnaryFunction, a: f64, first: f64) -> f64 {
     match f {
         UnaryFunction::Negate | UnaryFunction::Abs | UnaryFunction::Whole(0 | 1) => 0.0,

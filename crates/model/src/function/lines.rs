@@ -1,7 +1,7 @@
 //! Piecewise linear functions through the points of a table. If two points have the same time, the
 //! value jumps.
 
-/// Points in the order of time; a time may occur twice, but not at the ends.
+/// Points in the order of time. A time may occur twice, except at the ends.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Lines {
     times: Vec<f64>,
@@ -31,8 +31,8 @@ impl Lines {
         (&self.times, &self.values)
     }
 
-    /// Returns the value and the derivatives at t. At a point, they are those of the line that
-    /// starts at the point.
+    /// Returns the value and the derivatives at t. At a point, the values are those of the line
+    /// that starts at the point.
     pub(super) fn jet(&self, t: f64) -> [f64; 3] {
         let (x, y) = (&self.times, &self.values);
         let behind = x.partition_point(|&x| x <= t);

@@ -7,9 +7,9 @@ use crate::law::Operation;
 /// The kind of a function, with its parameters.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Parts<'a> {
-    /// `Σ c[k]·tᵏ`
+    /// The polynomial `Σ c[k]·tᵏ`.
     Polynomial(&'a [f64]),
-    /// `amplitude·sin(omega·t + phase) + offset`
+    /// The harmonic function `amplitude·sin(omega·t + phase) + offset`.
     Harmonic {
         /// Amplitude.
         amplitude: f64,
@@ -36,8 +36,8 @@ pub enum Parts<'a> {
         /// Second derivatives at these times.
         curvatures: &'a [f64],
     },
-    /// Straight lines through points. If two points have the same time, the value of the second one
-    /// applies at this time.
+    /// Straight lines through points. If two points have the same time, the value of the second
+    /// point applies at this time.
     Lines {
         /// Times of the points.
         times: &'a [f64],
@@ -62,9 +62,10 @@ impl Parts<'_> {
         }
     }
 
-    /// Returns all parameters: the coefficients; amplitude, omega, phase and offset; the start and
-    /// each step; time, value and curvature of each point; or time and value of each point. An
-    /// expression has no parameters, because its operations may depend on their values.
+    /// Returns all parameters. The parameters are the coefficients; amplitude, omega, phase and
+    /// offset; the start and each step; time, value and curvature of each point; or time and value
+    /// of each point. An expression has no parameters, because its operations may depend on the
+    /// values of its constants.
     #[must_use]
     pub fn numbers(&self) -> Vec<f64> {
         match self {

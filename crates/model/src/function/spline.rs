@@ -1,4 +1,5 @@
-//! The natural cubic spline: two continuous derivatives, second derivative zero at both ends.
+//! The natural cubic spline. The spline has two continuous derivatives, and its second derivative
+//! is zero at both ends.
 
 /// Values and second derivatives at given times.
 #[derive(Clone, Debug, PartialEq)]
@@ -16,8 +17,8 @@ impl Spline {
 
     /// Returns the spline through a table of at least two points with increasing times.
     ///
-    /// Curvatures κ solve the tridiagonal system `h₋κ₋ + 2(h₋ + h₊)κ + h₊κ₊ = 6(δ₊ − δ₋)` with the
-    /// steps h and the slopes δ of the chords.
+    /// The curvatures κ solve the tridiagonal system `h₋κ₋ + 2(h₋ + h₊)κ + h₊κ₊ = 6(δ₊ − δ₋)`. Here
+    /// h are the steps, and δ are the slopes of the chords.
     pub(super) fn natural(times: &[f64], values: &[f64]) -> Self {
         let n = times.len();
         let step = |k: usize| times[k + 1] - times[k];
@@ -60,7 +61,7 @@ impl Spline {
     }
 
     /// Returns the value and the derivatives at t. Outside the table, the spline continues along
-    /// the tangents at its ends.
+    /// the tangents at the first and the last point.
     pub(super) fn jet(&self, t: f64) -> [f64; 3] {
         let last = self.times.len() - 1;
         if t < self.times[0] || t > self.times[last] {

@@ -1,12 +1,12 @@
-//! A force law of a joint coordinate acts as an applied force:
-//! `Q = law(measure, rate, t)·∂measure/∂x`. It uses the kernels of the drive of this coordinate.
-//! Therefore every coordinate of every joint can have a force law.
+//! A force law of a joint coordinate acts as an applied force: `Q = law(measure, rate,
+//! t)·∂measure/∂x`. The force law uses the kernels of the drive of this coordinate. Therefore every
+//! coordinate of every joint can have a force law.
 //!
 //! A drive defines its coordinate by a row Φ(x, m) = 0, where m is the change since the start. If
 //! the row is coordinate − initial coordinate − m, the gradient of the coordinate is C. If the row
-//! of the joint itself contains m, it is at most quadratic in m: Φ(x, m) = Φ(x, 0) − s₀·m −
-//! ½·s₁·m². Here s = −∂Φ/∂m = s₀ + s₁·m is the component of the drive. Then m = 2Φ/(s₀ + s) with
-//! s = √(s₀² + 2·s₁·Φ) and Φ at m = 0, and the gradient is C/s. For a distance, s = |d|/L.
+//! of the joint itself contains m, the row is at most quadratic in m: Φ(x, m) = Φ(x, 0) − s₀·m −
+//! ½·s₁·m². Here s = −∂Φ/∂m = s₀ + s₁·m is the component of the drive. Then m = 2Φ/(s₀ + s) with s
+//! = √(s₀² + 2·s₁·Φ) and Φ at m = 0, and the gradient is C/s. For a distance, s = |d|/L.
 
 use joints::spec::{ConstraintSpec, ForceSpec};
 use joints::{
@@ -17,10 +17,10 @@ use super::number::Smooth;
 use super::{DriveForce, Law, LawError};
 use crate::element::{BodySpace, DriveScalar, ForceKernels, Kinematics, PoseOf, RowsAt, TwistOf};
 
-/// Largest number of bodies of a joint with a force law; no joint of the library has more than
-/// three.
+/// Largest number of bodies of a joint with a force law. No joint of the library has more than
+/// three bodies.
 const MOST_BODIES: usize = 4;
-/// Largest number of velocity components of these bodies: six for each body in space.
+/// Largest number of velocity components of these bodies. Each body in space has six.
 const MOST: usize = MOST_BODIES * 6;
 
 /// The force law of one coordinate of a joint.
@@ -37,11 +37,11 @@ pub(crate) struct LawDrive<S: BodySpace> {
 enum MeasureReading {
     /// The joint coordinate is Φ evaluated without a motion.
     ByRow,
-    /// The row of the joint contains the change of the joint coordinate since the start; this is
-    /// the initial value of the coordinate.
+    /// The row of the joint contains the change of the joint coordinate since the start. The value
+    /// is the initial value of the coordinate.
     Kept(f64),
-    /// The joint coordinate is the unwrapped angle in space since the start; this is the initial
-    /// angle of the axes.
+    /// The joint coordinate is the unwrapped angle in space since the start. The value is the
+    /// initial angle of the axes.
     Turn(f64),
 }
 
@@ -83,8 +83,8 @@ const OF_ROW: &str = "measure_0";
 impl<S: Kinematics> Definition<S> for LawDrive<S> {
     fn initialise(&mut self, x: &[PoseOf<S>]) {
         if let MeasureReading::Turn(start) = self.measured {
-            // The unwrapped angle is computed relative to the previous start; the first start has
-            // the angle zero.
+            // The unwrapped angle is computed relative to the previous start. At the first start
+            // the angle is zero.
             let still = vec![S::twist(&[0.0; 6]); x.len()];
             let [cos, sin, _] = self.drive.turned(0, x, &still);
             self.drive.initialise(x);
@@ -102,7 +102,7 @@ impl<S: Kinematics> Definition<S> for LawDrive<S> {
                     MeasureReading::ByRow
                 }
                 Some(datum) if datum.name == OF_ROW => {
-                    // With this value zero, the row of the drive is the joint coordinate itself.
+                    // If this value is zero, the row of the drive is the joint coordinate itself.
                     numbers[datum.first] = 0.0;
                     self.drive.set_data(&numbers);
                     MeasureReading::ByRow
@@ -132,7 +132,7 @@ struct Along<T> {
     gradient: [T; MOST],
     /// s and s₁ if the row of the joint contains the change of the coordinate.
     kept: Option<[T; 2]>,
-    /// The value passed to the drive in place of a motion.
+    /// The value passed to the drive instead of a motion.
     motion: [[T; 3]; 2],
 }
 
@@ -148,8 +148,8 @@ impl<T: Smooth> Along<T> {
 }
 
 impl<S: Kinematics> LawDrive<S> {
-    /// Returns the joint coordinate at these poses. `f` contains the time, and for an angle in
-    /// space also the values of the unwrapped angle.
+    /// Returns the joint coordinate at these poses. `f` contains the time. For an angle in space,
+    /// `f` also contains the values of the unwrapped angle.
     fn along<T: Smooth + DriveScalar>(&self, x: &[PoseOf<S, T>], f: &[[T; 3]]) -> Along<T> {
         let kernels = self.drive.as_ref();
         let stored = T::stored_by(kernels, |value, _| T::from(value));
@@ -233,7 +233,8 @@ struct LawFacts<K, S>(std::marker::PhantomData<(K, S)>);
 impl<K: Constraint<S>, S: Kinematics> LawFacts<K, S> {
     const SPEC: ForceSpec = Self::spec();
 
-    /// The specification lists all columns; the columns of C determine which of them are zero.
+    /// The specification lists all columns. The columns of C determine which of the listed columns
+    /// are zero.
     const fn spec() -> ForceSpec {
         let spec: &ConstraintSpec = &K::SPEC;
         let n = S::N_DOF * spec.common.slots.len();
@@ -267,8 +268,8 @@ impl<S: Kinematics> ForceElement<f64, S> for LawDrive<S> {
         };
         let n = S::N_DOF * spec.common.slots.len();
         let (s, turn) = along.kept.map_or((1.0, 0.0), |[s, s_1]| (s, s_1 / s));
-        // The derivatives ∂rate/∂x and F·∂g/∂x. The kernels compute them for constant s; the terms
-        // with `turn` add the effect of a change of s.
+        // The derivatives ∂rate/∂x and F·∂g/∂x. The kernels compute these derivatives for constant
+        // s. The terms with `turn` add the effect of a change of s.
         let mut values = [0.0; MOST * MOST];
         let mut of_rate = [0.0; MOST];
         element.d_velocity_dx(x, v, &along.motion, &mut values);
@@ -298,7 +299,7 @@ impl<S: Kinematics> ForceElement<f64, S> for LawDrive<S> {
     }
 }
 
-/// The kernels of a force law as kernels of a force in one space. A macro is necessary: a
+/// The kernels of a force law as kernels of a force in one space. A macro is necessary. A
 /// downstream crate might define kernels for its own space, so a generic implementation for all
 /// spaces is not possible.
 macro_rules! force_kernels {

@@ -1,7 +1,7 @@
 //! Errors in the operations of a force law.
 
 /// Largest number of values on the stack of a law. The nesting of expressions in scenes has a lower
-/// limit, so scenes never reach this one.
+/// limit, so scenes never reach this limit.
 pub(super) const DEEPEST: usize = 64;
 
 /// Error in the operations of a law.

@@ -9,13 +9,13 @@ use super::{Join, UnaryFunction, UndefinedValue};
 
 /// A number type for the evaluation of laws.
 pub(crate) trait LawNumber: Copy + From<f64> {
-    /// Returns the value; `None` if the type records operations only.
+    /// Returns the value, or `None` if the type records only operations.
     fn number(self) -> Option<f64>;
 
     /// Applies a function of one variable.
     fn apply(self, f: UnaryFunction) -> Self;
 
-    /// Applies a function of two variables; the second is `b`.
+    /// Applies a function of two variables. The second variable is `b`.
     fn join(self, j: Join, b: Self) -> Self;
 }
 
@@ -157,7 +157,7 @@ impl Smooth for f64 {
     }
 }
 
-/// Arithmetic and roots are recorded. All other functions give NaN; code generators reject laws
+/// Arithmetic and roots are recorded. All other functions give NaN. Code generators reject laws
 /// with these functions.
 impl LawNumber for RecordedNumber {
     fn number(self) -> Option<f64> {
@@ -187,7 +187,8 @@ impl Smooth for RecordedNumber {
     }
 }
 
-/// A value with its derivatives with respect to the joint coordinate and its rate.
+/// A value with its derivatives with respect to the joint coordinate and to the rate of the
+/// coordinate.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Slope<T> {
     pub(crate) value: T,

@@ -54,8 +54,8 @@ impl Program {
         Ok(with(value, by.map(finite)))
     }
 
-    /// Returns the value of the program for joint coordinate, rate and time. Every intermediate
-    /// result must be finite.
+    /// Returns the value of the program for a joint coordinate, its rate and the time. Every
+    /// intermediate result must be finite.
     pub(crate) fn evaluate<T: LawNumber>(&self, inputs: [T; 3]) -> Result<T, UndefinedValue> {
         let mut stack = [inputs[0]; DEEPEST];
         let mut top = 0;

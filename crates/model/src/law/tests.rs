@@ -33,7 +33,7 @@ fn every_function_has_its_value_and_its_derivative() {
         (F::Atan, 1.0, 1.0_f64.atan(), 0.5),
         (F::Exp, 0.0, 1.0, 1.0),
         (F::Log, 2.0, 2.0_f64.ln(), 0.5),
-        // The derivative is not finite and therefore replaced by zero.
+        // The derivative is not finite and is therefore replaced by zero.
         (F::Root, 0.0, 0.0, 0.0),
     ];
     for (f, at, value, slope) in of_one {
@@ -175,7 +175,7 @@ fn a_law_of_a_length_acts_along_it() {
     assert!(q[3].is_nan() && why.force == Err(UndefinedValue::Input));
 }
 
-/// Central differences with h = 1e-5: the error is h² plus the rounding error divided by h.
+/// Central differences with h = 1e-5. The error is h² plus the rounding error divided by h.
 #[test]
 fn derivatives_of_the_force_agree_with_differences() {
     const H: f64 = 1e-5;
@@ -274,7 +274,7 @@ fn what_a_function_does_not_give_is_named() {
     assert!(law == law.clone() && law != some_function());
 }
 
-/// If the law uses the change since the start, its replacement does so as well.
+/// If the law uses the change since the start, its replacement also uses this change.
 #[test]
 fn a_law_is_replaced_on_its_measure() {
     let origin = Argument::Pair([0.0; 2]);

@@ -21,8 +21,8 @@ pub enum UndefinedValue {
 }
 
 impl UndefinedValue {
-    /// Returns whether a callback is the cause. If so, the error does not disappear at another
-    /// state.
+    /// Returns whether a callback is the cause. If a callback is the cause, the error does not
+    /// disappear at another state.
     #[must_use]
     pub fn is_of_function(&self) -> bool {
         matches!(self, Self::Returned(_) | Self::Failed(_))

@@ -23,7 +23,8 @@ use crate::space::SpaceKind;
 use crate::system::{Layout, RowLabel};
 use crate::tolerance::Tolerance;
 
-/// Descriptions that [`Mechanism::build`] accepts: in the plane, in space, or either.
+/// Descriptions that [`Mechanism::build`] accepts. The descriptions are in the plane, in space, or
+/// of a type for both.
 pub trait Buildable {
     /// Returns the mechanism, or all errors of the description.
     #[doc(hidden)]
@@ -118,7 +119,7 @@ impl Mechanism {
         Ok(())
     }
 
-    /// Returns the mechanism without tolerances: the uncertainty of its values is their rounding
+    /// Returns the mechanism without tolerances. The uncertainty of its values is their rounding
     /// error.
     #[must_use]
     pub fn without_tolerances(mut self) -> Self {
@@ -204,7 +205,7 @@ impl Builder {
         self.elements.constraints.push(placed);
     }
 
-    /// Sets what the last constraint cannot do.
+    /// Sets the limits of the loads of the last constraint.
     pub(super) fn limit(&mut self, limits: &ContactLimits) {
         if let Some(group) = self.layout.groups.last_mut() {
             group.limits.clone_from(limits);
@@ -284,7 +285,7 @@ impl Builder {
         }
     }
 
-    /// Returns the indices of the next element, which has these bodies and functions of time.
+    /// Returns the indices of the next element. The element has these bodies and functions of time.
     /// `offset` is subtracted from the functions. If `turning` is true, the kernels receive the
     /// cosine and the sine of the functions.
     fn site(
@@ -320,7 +321,8 @@ impl Builder {
         }
     }
 
-    /// Adds the unwrapped angles of an element; they come after its functions of time.
+    /// Adds the unwrapped angles of an element. The unwrapped angles come after the functions of
+    /// time of the element.
     fn count(&mut self, owner: Owner, turns: usize, site: &mut Site) {
         for number in 0..turns {
             let first = self.elements.given.len();
@@ -338,8 +340,8 @@ impl Builder {
         site.functions.end = self.elements.given.len();
     }
 
-    /// Returns the mechanism with these bodies and with constraints whose rows are numbered;
-    /// initial values and arms are set later.
+    /// Returns the mechanism with these bodies and with constraints whose rows are numbered.
+    /// Initial values and arms are set later.
     pub(super) fn finish(
         mut self,
         name: &str,

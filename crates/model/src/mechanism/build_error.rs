@@ -31,8 +31,8 @@ pub enum BuildError {
         /// The value.
         value: f64,
     },
-    /// A given velocity refers to a point other than the centre of mass, but the required angular
-    /// velocity is not given.
+    /// A given velocity refers to a point other than the centre of mass. The angular velocity that
+    /// is required in this case is not given.
     #[error(
         "body `{body}`: `velocity` is that of the origin of its frame, which is not its centre of mass, so `angular_velocity` is needed with it"
     )]
@@ -88,7 +88,7 @@ pub enum BuildError {
         /// The value.
         value: f64,
     },
-    /// The number of bodies of a joint, drive or force differs from that of its definition.
+    /// The number of bodies of a joint, drive or force differs from the number in its definition.
     #[error("`{name}` connects {found} bodies, `{definition}` needs {expected}")]
     BodyCount {
         /// The joint, drive or force.
@@ -162,12 +162,12 @@ pub enum BuildError {
         /// The measure.
         name: String,
     },
-    /// The measure does not exist in this space, or a direction of it is invalid.
+    /// The measure does not exist in this space, or one of its directions is invalid.
     #[error("measure `{name}`: {reason}")]
     Measure {
         /// The measure.
         name: String,
-        /// Reason why there is no such measure.
+        /// Reason why the measure does not exist.
         reason: &'static str,
     },
     /// A drive is in the list of joints, or a joint is in the list of drives.
@@ -177,10 +177,10 @@ pub enum BuildError {
         name: String,
         /// Definition of the joint or drive.
         definition: &'static str,
-        /// The list that contains the value.
+        /// The list that contains the joint or drive.
         list: &'static str,
     },
-    /// The number of functions of time differs from that of the definition.
+    /// The number of functions of time differs from the number in the definition.
     #[error("`{name}` has {found} functions of time, `{definition}` needs {expected}")]
     FunctionCount {
         /// The joint or force.

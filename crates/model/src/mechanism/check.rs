@@ -203,8 +203,7 @@ fn spatial_numbers(b: &SpatialBody) -> Vec<(&'static str, f64)> {
     .concat()
 }
 
-/// Relative limit (fraction of the trace) by which principal moments may violate the triangle
-/// inequality.
+/// Amount (fraction of the trace) by which principal moments may violate the triangle inequality.
 const TRIANGLE: f64 = 1e-2;
 
 /// Returns the errors of a spatial body whose values are finite.
@@ -275,7 +274,7 @@ fn check_places<S: BodySpace>(
     for j in &d.joints {
         let (spec, points) = constraint(j.element.as_ref());
         check_role(&j.name, spec, Role::Joint, "joints", errors);
-        // A named component is the component of the force on the first body only.
+        // A named component contains only the force on the first body.
         let on_ground = j.bodies.split_first().is_some_and(|(first, others)| {
             *first == BodyRef::Ground && others.contains(&BodyRef::Ground)
         });

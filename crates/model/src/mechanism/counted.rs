@@ -1,9 +1,9 @@
-//! Unwrapped angles in space. A rotation determines an angle only up to full revolutions, but a
-//! screw, a gear or a spring needs the angle including full revolutions. Therefore the
-//! configuration has one coordinate for each of these angles, after the coordinates of the bodies:
+//! Unwrapped angles in space. A rotation determines an angle only up to full revolutions. A screw,
+//! a gear or a spring needs the angle including full revolutions. Therefore the configuration has
+//! one coordinate for each of these angles, after the coordinates of the bodies. The coordinate is
 //! the change of the angle since the start. The time derivative of the coordinate is the rate of
-//! the angle, and only the number of revolutions is taken from the coordinate. The coordinate need
-//! not be exact, because the angle within the revolution is computed from the poses.
+//! the angle. Only the number of revolutions is taken from the coordinate. The coordinate need not
+//! be exact, because the angle within the revolution is computed from the poses.
 
 use std::f64::consts::TAU;
 
@@ -14,8 +14,8 @@ use crate::element::{Site, Slots};
 use crate::group::ConstraintGroup;
 
 /// Returns the angle with this cosine and sine that is closest to an approximate value `known`
-/// (rad). If the axes are perpendicular, both are zero; then the function returns the approximate
-/// value.
+/// (rad). If the axes are perpendicular, cosine and sine are both zero. The function then returns
+/// the approximate value.
 fn closest(cos: f64, sin: f64, known: f64) -> f64 {
     if cos == 0.0 && sin == 0.0 {
         return known;
@@ -38,7 +38,8 @@ impl Elements {
         }
     }
 
-    /// Returns the unwrapped angles of some groups and forces, both in ascending order.
+    /// Returns the unwrapped angles of some groups and forces. Groups and forces are both in
+    /// ascending order.
     pub(super) fn counted_of(
         &self,
         groups: &[usize],

@@ -31,8 +31,8 @@ pub struct Derivatives {
     own_lambda: Vec<f64>,
 }
 
-/// A matrix stored as a list of entries that are added, ordered by the elements of the mechanism.
-/// The pattern is fixed.
+/// A matrix stored as a list of entries that are added. The entries are ordered by the elements of
+/// the mechanism. The pattern is fixed.
 #[derive(Clone, Debug, Default)]
 pub struct Sparse {
     /// Row, column and index of the value; entries in columns of the ground are omitted.
@@ -62,7 +62,7 @@ impl Sparse {
     }
 
     /// Returns the row, column and value of each entry. A pair of row and column may occur several
-    /// times; the values must then be added.
+    /// times. In this case the values must be added.
     pub fn iter(&self) -> impl Iterator<Item = (usize, usize, f64)> + '_ {
         self.entries
             .iter()
@@ -200,7 +200,7 @@ impl Derivatives {
     /// space. The function allocates memory.
     ///
     /// # Errors
-    /// Same errors as [`Derivatives::of`].
+    /// Returns the same errors as [`Derivatives::of`].
     pub fn of_forces(mechanism: &Mechanism, s: &Scratch) -> Result<[Sparse; 2], CalledForce> {
         let [mut by_q, mut by_v] = force_patterns(mechanism)?;
         differentiate_forces(mechanism, s, [&mut by_q, &mut by_v]);
@@ -208,7 +208,7 @@ impl Derivatives {
     }
 }
 
-/// Allocates `∂Q/∂q` and `∂Q/∂v`, if all forces have derivatives.
+/// Allocates `∂Q/∂q` and `∂Q/∂v` if all forces have derivatives.
 fn force_patterns(mechanism: &Mechanism) -> Result<[Sparse; 2], CalledForce> {
     mechanism
         .applied_forces()
@@ -232,7 +232,7 @@ fn force_patterns(mechanism: &Mechanism) -> Result<[Sparse; 2], CalledForce> {
 /// Pattern of the derivative of `−ω × J·ω` with respect to ω in principal axes.
 const GYROSCOPIC: [[usize; 2]; 6] = [[0, 1], [0, 2], [1, 2], [1, 0], [2, 0], [2, 1]];
 
-/// Returns the bodies with a gyroscopic torque; in space these are all bodies.
+/// Returns the bodies with a gyroscopic torque. In space these are all bodies.
 fn gyroscopic(mechanism: &Mechanism) -> std::ops::Range<usize> {
     match mechanism.space() {
         SpaceKind::Space3 => 0..mechanism.bodies.len(),

@@ -11,7 +11,8 @@ pub(crate) struct Elements {
     pub(crate) forces: Vec<PlacedForce>,
     /// Arguments of kernels in addition to poses and velocities, in the order of the elements.
     pub(crate) given: Vec<KernelInput>,
-    /// The unwrapped angles: first those of constraints, then those of forces.
+    /// The unwrapped angles. The angles of constraints come first, followed by the angles of
+    /// forces.
     pub(crate) counted: Vec<CountedAngle>,
     /// The constant entries of C; the other entries are zero.
     pub(crate) entries: Vec<f64>,
@@ -59,7 +60,7 @@ pub(crate) struct CountedAngle {
     pub(super) owner: Owner,
     /// Index of this angle among the unwrapped angles of its element.
     pub(super) number: usize,
-    /// The index of the first of its three values among the arguments of kernels.
+    /// The index of the first of the three values of the angle among the arguments of kernels.
     pub(crate) first: usize,
 }
 

@@ -1,5 +1,5 @@
-//! The applied forces of a mechanism without gravity: their data for drawings, and their values at
-//! a state.
+//! The applied forces of a mechanism without gravity. This module returns their data for drawings,
+//! and their values at a state.
 
 use joints::spec::{ForceSpec, Unit};
 
@@ -33,7 +33,7 @@ pub struct AppliedForce<'m> {
 pub struct CalledForce {
     /// Name of the force or drive.
     pub name: String,
-    /// Whether it is a drive with a force law.
+    /// Whether the force is a drive with a force law.
     pub is_drive: bool,
 }
 
@@ -110,8 +110,8 @@ pub struct Push<'m> {
     pub q: Vec<f64>,
 }
 
-/// The change of a function, relative to its value or to 1. The central difference is exact if Q is
-/// linear or quadratic in the function.
+/// The change of a function of time, relative to its value or to 1. The central difference is exact
+/// if Q is linear or quadratic in the function.
 const PUSH: f64 = 1.0 / 256.0;
 
 impl Mechanism {
@@ -148,8 +148,8 @@ impl<'m> AppliedForces<'m> {
     #[must_use]
     pub fn pushes(self, s: &mut Scratch) -> Vec<Push<'m>> {
         let mut all = Vec::new();
-        // Force laws and callbacks have the time as an argument, but it is not one of these
-        // functions.
+        // The time is an argument of force laws and callbacks, but it is not one of the functions
+        // of time of this list.
         let of_time = |force: &&PlacedForce| !force.is_law() && !force.is_called();
         for force in self.0.iter().filter(of_time) {
             let functions = force.spec().common.functions();
@@ -218,7 +218,8 @@ impl<'m> AppliedForces<'m> {
     }
 
     /// Returns the contribution of each force to Q at the configuration and the velocities in the
-    /// work space, n_v values each, with the name of the force. The function allocates memory.
+    /// work space, with the name of the force. Each contribution has n_v values. The function
+    /// allocates memory.
     pub fn parts(self, s: &mut Scratch) -> impl Iterator<Item = (&'m str, Vec<f64>)> {
         let n = s.force.len();
         self.0.iter().map(move |force| {
@@ -245,8 +246,8 @@ impl<'m> AppliedForces<'m> {
     }
 
     /// Returns the forces and torques of the drives with force laws at the configuration and the
-    /// velocities in the work space. Each load acts on the second body along the joint coordinate;
-    /// undefined values are NaN.
+    /// velocities in the work space. Each load acts on the second body along the joint coordinate.
+    /// Undefined values are NaN.
     pub fn of_laws(self, s: &Scratch) -> impl Iterator<Item = f64> {
         let forces = self.0.iter().filter_map(|force| force.drive(&s.slots));
         forces.map(|d| d.force.unwrap_or(f64::NAN))

@@ -1,5 +1,6 @@
-//! The points at which joints and drives act on bodies, computed from their parameters for
-//! drawings. The module also returns the coordinates that drives prescribe, and their values.
+//! The points at which joints and drives act on bodies, for drawings. The points are computed from
+//! the parameters of the joints and drives. The module also returns the coordinates that drives
+//! prescribe, and the prescribed values.
 //!
 //! The reference point of a reaction is defined by [`crate::Reactions::place`].
 
@@ -40,9 +41,9 @@ impl Mechanism {
             .collect()
     }
 
-    /// Returns the joint whose coordinate a drive prescribes, and the name of the coordinate. It is
-    /// the joint with the same bodies and points whose definition contains this drive. Returns
-    /// `None` if this joint does not exist, or if the argument is not a drive.
+    /// Returns the joint whose coordinate a drive prescribes, and the name of the coordinate. The
+    /// joint has the same bodies and points as the drive, and its definition contains this drive.
+    /// Returns `None` if this joint does not exist, or if the argument is not a drive.
     ///
     /// ```
     /// use joints::{Revolute, RevoluteAngleDrive};
@@ -79,8 +80,8 @@ impl Mechanism {
     }
 
     /// Returns value, rate and second derivative of each function of time of a joint or drive, at
-    /// the time in the work space. For a drive they are those of the change of the joint coordinate
-    /// since the start.
+    /// the time in the work space. For a drive, the values are those of the change of the joint
+    /// coordinate since the start.
     ///
     /// # Panics
     /// Panics if the joint or drive does not exist.

@@ -1,6 +1,6 @@
-//! Values taken from the initial configuration of a mechanism: the initial values stored by
-//! definitions, and the arms of the bodies. The arms are the length scales of positions near the
-//! origin.
+//! Values taken from the initial configuration of a mechanism. The values are the initial values
+//! stored by definitions, and the arms of the bodies. The arms are the length scales of positions
+//! near the origin.
 //!
 //! The module [`crate::arms`] computes the arms, and [`crate::size`] computes the size of the whole
 //! mechanism.
@@ -44,7 +44,7 @@ pub(crate) fn unmet_requirement(
     of_constraints.next().or_else(|| of_forces.next())
 }
 
-/// Returns the rows of the constraints with a requirement that a configuration does not satisfy, in
+/// Returns the rows of the constraints that have an unsatisfied requirement at a configuration, in
 /// ascending order.
 pub(crate) fn unmet_rows(mechanism: &Mechanism, q: &[f64]) -> Vec<usize> {
     let bodies = Bodies::at(mechanism.space(), mechanism.of_bodies(q));

@@ -1,7 +1,7 @@
 //! The kernels of an assembled mechanism. The kernels evaluate all elements and write the results
-//! to storage of the caller. Values that do not change between calls are not recomputed: functions
-//! at the same time, sines and cosines of unchanged angles, constant entries of C, and Γ of rows
-//! that are linear in q.
+//! to storage of the caller. Values that do not change between calls are not recomputed. Examples
+//! are functions at the same time, sines and cosines of unchanged angles, constant entries of C,
+//! and Γ of rows that are linear in q.
 
 use joints::Ring;
 

@@ -1,4 +1,4 @@
-//! The loads of applied forces on their bodies, at a state.
+//! The loads of applied forces on their bodies at a state.
 
 use joints::spec::{ForceSpec, Shape, Unit};
 
@@ -9,7 +9,7 @@ use crate::reaction::Reaction;
 use crate::space::{cross, difference};
 use crate::system::{Scratch, System};
 
-/// The joint coordinate of an applied force: a quantity that the force measures.
+/// The joint coordinate of an applied force, which is a quantity measured by the force.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ForceMeasure {
     /// Distance of two points, or the joint coordinate of a drive (m).
@@ -58,15 +58,15 @@ pub struct Load {
     /// Force and torque on the first body, in ground axes (N, N·m). The torque is about
     /// [`Load::place`].
     pub wrench: Reaction,
-    /// The first point of the force on the first body (m, ground axes). A force without such a
-    /// point has the centre of mass of the body, or the origin of the ground.
+    /// The first point of the force on the first body (m, ground axes). If a force has no such
+    /// point, the centre of mass of the body is used, or the origin of the ground.
     pub place: [f64; 3],
-    /// The measure of the force and its rate, if it has one.
+    /// The measure of the force and its rate, if the force has a measure.
     pub measure: Option<[f64; 2]>,
 }
 
-/// Computes the loads of the applied forces of a mechanism. A drive with a force law is one of
-/// these forces. The weight is not.
+/// Computes the loads of the applied forces of a mechanism. A drive with a force law is an applied
+/// force. The weight is not an applied force.
 pub struct Loads<'m> {
     mechanism: &'m Mechanism,
     s: Scratch,
@@ -158,7 +158,8 @@ impl<'m> Loads<'m> {
         }
     }
 
-    /// Returns the part of Q (the values in `block`) on one body as a wrench about a point.
+    /// Returns a part of Q as a wrench on one body about a point. `block` contains the values of
+    /// the part.
     fn wrench(&self, force: &PlacedForce, block: &[f64], body: usize, about: [f64; 3]) -> Reaction {
         let space = self.mechanism.space();
         let entries = force.columns.iter().zip(block);
@@ -167,8 +168,8 @@ impl<'m> Loads<'m> {
         self.of_entries(body, about, own)
     }
 
-    /// Returns entries of a vector of generalised forces, each with its column, as a wrench on a
-    /// body about a point.
+    /// Returns entries of a vector of generalised forces as a wrench on a body about a point. Each
+    /// entry is given with its column.
     fn of_entries(
         &self,
         body: usize,
@@ -196,9 +197,9 @@ impl<'m> Loads<'m> {
         wrench
     }
 
-    /// Returns the weight of a body, and the load of its inertia, −m·a and −(J·α + ω × J·ω), about
-    /// its centre of mass in ground axes, at the state of the last [`Loads::set`] with the
-    /// accelerations v̇.
+    /// Returns two loads of a body about its centre of mass, in ground axes: the weight, and the
+    /// load of its inertia, −m·a and −(J·α + ω × J·ω). The state is the state of the last
+    /// [`Loads::set`], with the accelerations v̇.
     ///
     /// # Panics
     /// Panics if the body does not exist, or if v̇ has the wrong length.
@@ -222,8 +223,9 @@ impl<'m> Loads<'m> {
         })
     }
 
-    /// Returns the loads on one body about its centre of mass, in ground axes, with the indices of
-    /// the forces that act on it, at the state of the last [`Loads::set`].
+    /// Returns the loads on one body about its centre of mass, in ground axes, at the state of the
+    /// last [`Loads::set`]. Each load is returned with the index of the force that acts on the
+    /// body.
     ///
     /// # Panics
     /// Panics if the body does not exist.

@@ -1,6 +1,6 @@
-//! Splits a mechanism into independent mechanisms. Two bodies belong to the same one if a joint, a
-//! drive or a force connects them. The ground does not connect bodies, because it does not move
-//! under any force.
+//! Splits a mechanism into independent mechanisms. Two bodies belong to the same mechanism if a
+//! joint, a drive or a force connects them. The ground does not connect bodies, because it does not
+//! move under any force.
 
 use linalg::DisjointSets;
 
@@ -10,7 +10,7 @@ use crate::body::BodyRef;
 use crate::element::{PlacedForce, Site};
 use crate::function::Function;
 
-/// A mechanism that is a part of another one.
+/// A mechanism that is a part of another mechanism.
 #[derive(Clone)]
 pub struct Part {
     /// The part as a mechanism. The rows of the part have the names and indices that they have in
@@ -66,8 +66,8 @@ impl Mechanism {
     }
 
     /// Works like [`Mechanism::components`], but only these joints and drives connect bodies. A
-    /// body without any of these joints and drives is a separate set. Forces are not used: a spring
-    /// between two machines does not connect them here.
+    /// body without any of these joints and drives is a separate set. Forces do not connect bodies
+    /// in this function. For example, a spring between two machines does not connect them.
     ///
     /// ```
     /// use joints::{Revolute, TorsionSpringDamper};
@@ -224,7 +224,7 @@ fn laws(whole: &Mechanism, site: &Site) -> Vec<Function> {
     whole.map(|f| f.function.clone()).collect()
 }
 
-/// Returns the sets of connected bodies; the bodies of each element are connected. Each set is in
+/// Returns the sets of connected bodies. The bodies of each element are connected. Each set is in
 /// ascending order, and the sets are ordered by their first bodies.
 fn connected<'a>(bodies: usize, sites: impl Iterator<Item = &'a Site>) -> Vec<Vec<usize>> {
     let mut sets = DisjointSets::new(bodies);

@@ -6,10 +6,10 @@ use crate::space::SpaceKind;
 
 impl Mechanism {
     /// Returns whether the joints, drives and forces of another mechanism have the same stored
-    /// values, tolerances and initial values, and its bodies the same sizes. In this case, all
-    /// results about the constraints at a configuration are equal for both mechanisms. Masses,
-    /// moments of inertia and weights may differ. The result is also `false` for mechanisms with
-    /// unwrapped angles, which cannot be compared.
+    /// values, tolerances and initial values, and whether its bodies have the same sizes. In this
+    /// case, all results about the constraints at a configuration are equal for both mechanisms.
+    /// Masses, moments of inertia and weights may differ. The result is also `false` for mechanisms
+    /// with unwrapped angles, which cannot be compared.
     ///
     /// ```
     /// use pfaff_model::{Body, Description, Mechanism};
@@ -44,8 +44,8 @@ impl Mechanism {
     }
 }
 
-/// Returns whether two recordings have the same shape, and the same values in joints, drives,
-/// forces and functions of time.
+/// Returns whether two recordings have the same shape and the same values in joints, drives, forces
+/// and functions of time.
 fn same_numbers(a: &RecordedEquations, b: &RecordedEquations) -> bool {
     if a.shape() != b.shape() {
         return false;

@@ -26,21 +26,22 @@ pub enum FunctionForm {
 }
 
 impl TimeFunction {
-    /// Returns the function, and the value that is subtracted from it: f(0) for drives.
+    /// Returns the function, and the value that is subtracted from the function. This value is f(0)
+    /// for drives.
     #[must_use]
     pub fn parts(&self) -> (&Function, f64) {
         (&self.function, self.offset)
     }
 
-    /// Returns the form in which the difference is passed to the kernel: drives of angles in space
-    /// receive its cosine and its sine.
+    /// Returns the form in which the difference is passed to the kernel. Drives of angles in space
+    /// receive the cosine and the sine of the difference.
     #[must_use]
     pub fn form(&self) -> FunctionForm {
         self.form
     }
 
-    /// Returns the parameters of the function ([`crate::function::Parts::numbers`]), then the value
-    /// that is subtracted from it.
+    /// Returns the parameters of the function ([`crate::function::Parts::numbers`]), followed by
+    /// the value that is subtracted from the function.
     #[must_use]
     pub fn numbers(&self) -> Vec<f64> {
         let mut numbers = self.function.parts().numbers();

@@ -1,5 +1,6 @@
-//! Counts the operations of the kernels of a mechanism in each evaluation, and the operations that
-//! its structure makes unnecessary. The kernels skip operations by the same criteria.
+//! Counts the operations of the kernels of a mechanism in each evaluation. The module also counts
+//! the operations that the structure of the mechanism makes unnecessary. The kernels skip
+//! operations by the same criteria.
 
 use super::{Elements, Mechanism};
 use crate::element::PlacedConstraint;
@@ -68,10 +69,11 @@ impl Work {
     }
 }
 
-/// Returns for each body whether its angle keeps its initial value. This is the case if a holonomic
-/// row that does not depend on time connects the body with the ground, or with bodies that have
-/// this property. Only rows that contain angles alone, with constant entries, are examined.
-/// Therefore some bodies with this property may not be found.
+/// Returns for each body whether its angle keeps its initial value. The angle of a body keeps its
+/// initial value if a holonomic row that does not depend on time connects the body with the ground,
+/// or with bodies whose angles keep their initial values. Only rows that contain no translations
+/// and have constant entries are examined. Therefore some bodies with this property may not be
+/// found.
 pub(super) fn held_bodies(elements: &Elements, layout: &Layout, bodies: usize) -> Vec<bool> {
     let constraints = elements.constraints.iter();
     let rows: Vec<Vec<usize>> = constraints
@@ -86,7 +88,7 @@ pub(super) fn held_bodies(elements: &Elements, layout: &Layout, bodies: usize) -
     }
     let mut held = vec![false; bodies];
     let mut free: Vec<usize> = rows.iter().map(Vec::len).collect();
-    // Rows in which all angles except one are fixed; these rows fix the remaining angle.
+    // Rows in which all angles except one are fixed. These rows fix the remaining angle.
     let mut holding: Vec<usize> = (0..rows.len()).filter(|&k| free[k] == 1).collect();
     while let Some(k) = holding.pop() {
         let Some(&body) = rows[k].iter().find(|&&body| !held[body]) else {
@@ -103,8 +105,8 @@ pub(super) fn held_bodies(elements: &Elements, layout: &Layout, bodies: usize) -
     held
 }
 
-/// Returns the bodies in a row of a constraint with constant entries, without the bodies whose
-/// entry is zero.
+/// Returns the bodies in a row of a constraint with constant entries. Bodies whose entry is zero
+/// are omitted.
 fn constant_row(
     elements: &Elements,
     layout: &Layout,

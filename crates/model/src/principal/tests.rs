@@ -9,12 +9,14 @@ use crate::mechanism::{Derivatives, Mechanism, Sparse};
 use crate::reaction::ConstraintId;
 use crate::system::System;
 
-/// A rotation by 3-4-5 angles about two axes, from the second frame to the principal axes.
+/// A rotation by 3-4-5 angles about two axes. It transforms from the second frame to the principal
+/// axes.
 const BETWEEN: [f64; 4] = [0.48, 0.36, -0.64, 0.48];
 
 const MOMENTS: [f64; 3] = [0.7, 1.1, 1.6];
 
-/// A rotating body with a hinge and a spring; its frame is rotated relative to its principal axes.
+/// A rotating body with a hinge and a spring. The frame of the body is rotated relative to its
+/// principal axes.
 fn described(between: [f64; 4]) -> Mechanism {
     let turn = Pose::new([0.0; 3], between);
     // Transforms a vector from the principal axes to the body frame.

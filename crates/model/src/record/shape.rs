@@ -32,9 +32,9 @@ impl Digest {
 }
 
 impl RecordedEquations {
-    /// Returns a digest of everything except the stored values: operations, inputs, results, and
-    /// the kinds of the functions of time. The digest is the same on every machine and in every
-    /// build of one version.
+    /// Returns a digest of everything except the stored values. The digest covers operations,
+    /// inputs, results, and the kinds of the functions of time. The digest is the same on every
+    /// machine and in every build of one version.
     ///
     /// ```
     /// use pfaff_model::{Body, Description, Mechanism, RecordedEquations};

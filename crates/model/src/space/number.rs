@@ -62,8 +62,8 @@ impl Number for Dd {
         Dd::sin_cos(self)
     }
 
-    /// Computes the angle in `f64` and adds the remaining angle, whose square is smaller than the
-    /// last digit.
+    /// Computes the angle in `f64` and adds the remaining angle. The square of the remaining angle
+    /// is smaller than the last digit.
     fn atan2(y: Self, x: Self) -> Self {
         let (x, y) = Self::normalised(x, y);
         let near = Self::from(y.to_f64().atan2(x.to_f64()));

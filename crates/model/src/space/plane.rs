@@ -71,12 +71,12 @@ impl PlanarSpace for Plane {
 }
 
 /// The plane with a point of the unit circle in place of the angle: q = (x, y, cos φ, sin φ), so
-/// that n_q = 4. This space is only for tests. Its coordinates and velocities have different
-/// dimensions, like quaternions and angular velocities.
+/// that n_q = 4. This space is only for tests. The coordinates and velocities of this space have
+/// different dimensions, like quaternions and angular velocities.
 ///
-/// Only the direction of (c, s) is used, so at a stage of an integrator the point may leave the
-/// circle; a displacement puts the point on the circle. Angles are determined only up to full
-/// revolutions, so rows that contain angles are valid only within half a revolution.
+/// Only the direction of (c, s) is used. Therefore the point may leave the circle at a stage of an
+/// integrator; a displacement returns it to the circle. Angles are determined only up to full
+/// revolutions. Therefore rows that contain angles are valid only within half a revolution.
 #[cfg(feature = "unit-circle")]
 #[derive(Clone, Copy, Debug)]
 pub struct UnitCircle;

@@ -9,9 +9,9 @@ use super::vector::norm;
 /// Space: q = (x, y, z, w, x', y', z') with the quaternion of the body axes, v = (ẋ, ẏ, ż, ω) with
 /// ω in the body axes.
 ///
-/// Only the direction of the quaternion is used, so at a stage of an integrator it may leave the
-/// unit sphere; a displacement puts it on the sphere. A quaternion and its negative represent the
-/// same pose.
+/// Only the direction of the quaternion is used. Therefore the quaternion may leave the unit sphere
+/// at a stage of an integrator; a displacement returns it to the sphere. A quaternion and its
+/// negative represent the same pose.
 #[derive(Clone, Copy, Debug)]
 pub struct Space3;
 
@@ -38,7 +38,8 @@ impl Space for Space3 {
     const JOINT_COMPONENTS: &'static [&'static str] = &["Fu", "Fv", "Fw", "Tu", "Tv", "Tw"];
     const EDGE_COMPONENTS: &'static [&'static str] = &["Fn", "Ft", "Fb", "Tn", "Tt", "Tb"];
 
-    /// A rotation does not define an angle that includes full revolutions, so the value is zero.
+    /// A rotation does not define an angle that includes full revolutions. Therefore the value is
+    /// zero.
     fn position(q: &[f64], dof: usize) -> f64 {
         if dof < 3 { q[dof] } else { 0.0 }
     }
@@ -86,8 +87,8 @@ impl Space for Space3 {
         }
         let [w, x, y, z] = quaternion(from);
         let [w, x, y, z] = quaternion_product([w, -x, -y, -z], quaternion(q));
-        // A quaternion and its negative represent the same rotation; the one with the smaller angle
-        // is used.
+        // A quaternion and its negative represent the same rotation; the quaternion with the
+        // smaller angle is used.
         let sign = 1.0_f64.copysign(w);
         let length = norm(&[x, y, z]);
         let angle = 2.0 * length.atan2(w.abs());
@@ -97,7 +98,7 @@ impl Space for Space3 {
         }
     }
 
-    /// For every rotational component, the whole orientation is copied, because rotations cannot be
+    /// The whole orientation is copied for every rotational component, because rotations cannot be
     /// added along single axes.
     fn take(q: &mut [f64], from: &[f64], dof: usize) {
         match dof {
@@ -131,8 +132,8 @@ pub(crate) fn normalised<T: Number>(e: [T; 4]) -> [T; 4] {
     e.map(|part| part / length)
 }
 
-/// If the square of half an angle is below this value, sine and cosine are summed as series; six
-/// terms are then exact to the last digit of double-double.
+/// If the square of half an angle is below this value, sine and cosine are summed as series. Six
+/// terms of the series are then exact to the last digit of double-double.
 const SERIES: f64 = 1e-4;
 
 /// Returns the unit quaternion of a rotation vector: (cos ½|θ|, sin ½|θ|·θ/|θ|).

@@ -7,9 +7,9 @@ use super::number::Number;
 /// Largest number of coordinates of a body.
 pub(super) const MOST_COORDINATES: usize = 7;
 
-/// A space in which bodies move. All slices belong to one body: `q` has [`Space::N_Q`] values, `v`
-/// and `d` have [`Space::N_V`]; translations come first. A force on a body has one component for
-/// each translation, a torque one for each rotation.
+/// A space in which bodies move. All slices belong to one body. `q` has [`Space::N_Q`] values, and
+/// `v` and `d` have [`Space::N_V`] values each; translations come first. A force on a body has one
+/// component for each translation, and a torque has one for each rotation.
 pub trait Space {
     /// Number of coordinates of a body; the position comes first.
     const N_Q: usize;
@@ -23,8 +23,8 @@ pub trait Space {
     /// Names of the coordinates.
     const COORDINATES: &'static [&'static str];
 
-    /// Names of the output values of a frame: its position and orientation, then its [`Space::N_V`]
-    /// velocity components.
+    /// Names of the output values of a frame: first its position and orientation, then its
+    /// [`Space::N_V`] velocity components.
     const COLUMNS: &'static [&'static str];
 
     /// Names of the output values of the accelerations of a frame, in the order of its velocity
@@ -47,22 +47,22 @@ pub trait Space {
     /// with exactly one force.
     const EDGE_COMPONENTS: &'static [&'static str];
 
-    /// Returns the position of a body for one velocity component: a coordinate (m) or an angle
-    /// (rad).
+    /// Returns the position of a body for one velocity component. The position is a coordinate (m)
+    /// or an angle (rad).
     #[must_use]
     fn position(q: &[f64], dof: usize) -> f64;
 
     /// Computes q̇ = T(q)·v.
     fn rate<T: Ring>(q: &[T], v: &[T], qd: &mut [T]);
 
-    /// Returns one velocity component (index below [`Space::N_V`]) as a linear form of q̇ = T(q)·v;
-    /// the result contains the coefficients of q̇. Components of q̇ that do not change the pose are
+    /// Returns one velocity component (index below [`Space::N_V`]) as a linear form of q̇ = T(q)·v.
+    /// The result contains the coefficients of q̇. Components of q̇ that do not change the pose are
     /// ignored. Coefficients beyond the number of coordinates are zero.
     #[must_use]
     fn velocity_from_rate(q: &[f64], dof: usize) -> [f64; MOST_COORDINATES];
 
-    /// Returns the unit direction of q̇ that does not change the pose; `None` if every q̇ changes
-    /// the pose.
+    /// Returns the unit direction of q̇ that does not change the pose, or `None` if every q̇
+    /// changes the pose.
     #[must_use]
     fn normal(_q: &[f64]) -> Option<[f64; MOST_COORDINATES]> {
         None
@@ -71,21 +71,21 @@ pub trait Space {
     /// Displaces q by d: a translation along the ground axes (m), and a rotation (rad).
     fn displace<T: Number>(q: &mut [T], d: &[T]);
 
-    /// Returns the d with which [`Space::displace`] maps `from` to `q`.
+    /// Returns the displacement d with which [`Space::displace`] maps `from` to `q`.
     fn difference(q: &[f64], from: &[f64], d: &mut [f64]);
 
-    /// Copies the coordinates of one velocity component from another configuration exactly; a
-    /// difference would have rounding errors.
+    /// Copies the coordinates of one velocity component from another configuration exactly. A
+    /// displacement by the difference would have rounding errors.
     fn take(q: &mut [f64], from: &[f64], dof: usize);
 }
 
-/// A space with planar poses; it may have any coordinates.
+/// A space with planar poses. Any coordinates may represent the poses.
 pub trait PlanarSpace: Space {
     /// Returns the angle of a body (rad).
     #[must_use]
     fn angle<T: Number>(q: &[T]) -> T;
 
-    /// Returns the sine and cosine of this angle.
+    /// Returns the sine and cosine of the angle of a body.
     #[must_use]
     fn sin_cos<T: Number>(q: &[T]) -> (T, T);
 }

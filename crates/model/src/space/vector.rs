@@ -1,8 +1,8 @@
 //! Operations on vectors with three components, or with any number of components.
 
-/// Returns the unit vector along an axis of the ground (0 for x to 2 for z) times a vector:
-/// `e × a`. The result is the velocity of a point at the position `a` of a body that rotates about
-/// this axis at 1 rad/s.
+/// Returns the cross product `e × a`, where e is the unit vector along an axis of the ground (0 for
+/// x to 2 for z). The result is the velocity of a point at the position `a` of a body that rotates
+/// about this axis at 1 rad/s.
 #[must_use]
 pub fn unit_cross(axis: usize, a: [f64; 3]) -> [f64; 3] {
     std::array::from_fn(|k| match (k + 3 - axis) % 3 {

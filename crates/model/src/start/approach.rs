@@ -1,7 +1,7 @@
 //! Computes a configuration near the constraints from a distant initial configuration, by damped
 //! least squares of the violations of the joints. Violations are lengths; angles are multiplied by
-//! the size of the mechanism. Masses have no influence. Otherwise, a light body could rotate far
-//! and end on the opposite side of its joint.
+//! the size of the mechanism. Masses have no influence. With weights by mass, a light body could
+//! rotate far and end on the opposite side of its joint.
 //!
 //! Source: Levenberg–Marquardt method, as in J. Nocedal, S. Wright, Numerical Optimization, 2nd
 //! ed., section 10.3, with corrections of minimum norm, so that rows may be redundant.
@@ -14,7 +14,8 @@ use super::parallel::Parallel;
 use crate::mechanism::{Mechanism, unmet_rows};
 use crate::system::{Scratch, System};
 
-/// Joints are not listed in messages if their violation is below this fraction of the largest one.
+/// Joints are not listed in messages if their violation is below this fraction of the largest
+/// violation.
 const NAMED_MISFIT: f64 = 1e-2;
 
 /// Largest number of steps. An initial configuration with errors of 20 % and 20° needs about ten
@@ -30,13 +31,13 @@ const LARGEST_STEP: f64 = 0.5;
 /// [`super::nearest`] converges.
 const REACHED: f64 = 1e-9;
 
-/// Initial damping, smallest damping, and the damping at which the iteration stops, relative to
-/// rows of norm one.
+/// Initial damping, smallest damping, and the damping at which the iteration stops. All values are
+/// relative to rows of norm one.
 const DAMPING: f64 = 1e-3;
 const LEAST_DAMPING: f64 = 1e-12;
 const MOST_DAMPING: f64 = 1e8;
 
-/// The damping is multiplied or divided by this factor.
+/// Factor by which the damping is multiplied or divided.
 const FACTOR: f64 = 10.0;
 
 /// The iteration ends if a step reduces the residual by less than this fraction.
@@ -47,7 +48,7 @@ const STILL: f64 = 1e-10;
 struct Linearisation {
     /// Residuals in metres; residuals of angles are multiplied by the size of the mechanism.
     residual: Vec<f64>,
-    /// One row for each residual.
+    /// Derivatives, with one row for each residual.
     c: Matrix,
 }
 
@@ -58,7 +59,7 @@ impl Linearisation {
 }
 
 /// Returns the residuals of these rows at q. Rotation vectors replace products of directions.
-/// Therefore the rows are not satisfied by an axis with the opposite direction.
+/// Therefore an axis with the opposite direction does not satisfy the rows.
 fn linearised(
     mechanism: &Mechanism,
     s: &mut Scratch,
@@ -103,9 +104,9 @@ fn linearised(
     Ok(Linearisation { residual, c })
 }
 
-/// Returns whether the axes that the joints keep parallel have the described direction at q, not
-/// the opposite one. All requirements of definitions must also be satisfied (for example, a wheel
-/// is above the ground).
+/// Returns whether the axes that the joints keep parallel have the described direction at q instead
+/// of the opposite direction. All requirements of definitions must also be satisfied (for example,
+/// a wheel is above the ground).
 pub(super) fn is_meant(mechanism: &Mechanism, s: &mut Scratch, q: &[f64]) -> bool {
     if !unmet_rows(mechanism, q).is_empty() {
         return false;
@@ -132,8 +133,8 @@ pub(super) fn is_near(
     })
 }
 
-/// Returns a configuration near another one that satisfies the rows to [`REACHED`]; coordinates
-/// with weight zero do not change.
+/// Returns a configuration near another configuration. The configuration satisfies the rows to
+/// [`REACHED`]. Coordinates with weight zero do not change.
 ///
 /// # Errors
 /// [`StartError::NoAssembly`]: the violations of the joints have a minimum that is not zero.

@@ -30,14 +30,14 @@ struct Fault {
     column: usize,
     /// The contradicting rows; rows that prescribe a motion come first.
     rows: Vec<RowLabel>,
-    /// The names of the drives in these rows.
+    /// The names of the drives of these rows.
     drives: Vec<String>,
     /// Whether other given or kept velocities contribute to the contradiction.
     with_others: bool,
 }
 
 impl Start<'_> {
-    /// Returns a description of the contradiction, if some rows have no acceptable velocities;
+    /// Returns a description of the contradiction if some rows have no acceptable velocities.
     /// `miss` is the first problem that was found.
     ///
     /// # Errors
@@ -66,9 +66,9 @@ impl Start<'_> {
             .solve(rows, &self.hold, CorrectionLimit::Any, &mut v)?
             .is_none();
         let (leave_out, hold, is_enough) = self.leave_out(rows, &columns)?;
-        // The candidates are velocities whose value, if they are not given, differs from the given
-        // value. The search selects the candidate with the largest difference. Given velocities
-        // without a difference are correct.
+        // The candidates are velocities whose computed value, if they are not given, differs from
+        // the given value. The search selects the candidate with the largest difference. Given
+        // velocities without a difference are correct.
         let mut candidates = vec![column];
         if is_enough && self.solve(rows, &hold, self.limit, &mut v)?.is_none() {
             let by = |j: usize| self.equations.arm(j) * (v[j] - self.written[j]).abs();
@@ -128,8 +128,8 @@ impl Start<'_> {
 
     /// Returns the name of a velocity component, its given value and its value in the velocities
     /// `other`. Scenes contain angular velocities in space in ground axes. Therefore, the function
-    /// selects the ground component that differs most between the given velocities and the closest
-    /// compatible velocities.
+    /// selects the ground component with the largest difference between the given velocities and
+    /// the closest compatible velocities.
     fn as_written(
         &self,
         column: usize,
@@ -156,17 +156,17 @@ impl Start<'_> {
         (name, [given[farthest], other[farthest]])
     }
 
-    /// Returns whether a column is a rotation of a body that is kept while other rotations of the
-    /// same body are not.
+    /// Returns whether a column is a kept rotation of a body that also has rotations that are not
+    /// kept.
     fn is_component(&self, column: usize) -> bool {
         let space = self.equations.mechanism.space();
         let mut rotations = space.rotations_of(space.body_of(column));
         self.hold[column] == Hold::Kept && rotations.any(|j| self.hold[j] != Hold::Kept)
     }
 
-    /// Returns the given or kept velocity that differs most from the closest compatible velocities,
-    /// which are computed as if no velocity were kept. Returns `None` if there are no compatible
-    /// velocities. Writes the compatible velocities to `nearest`.
+    /// Returns the given or kept velocity that differs most from the closest compatible velocities.
+    /// The compatible velocities are computed as if no velocity were kept. Returns `None` if there
+    /// are no compatible velocities. Writes the compatible velocities to `nearest`.
     fn culprit(
         &self,
         rows: &[usize],
@@ -253,9 +253,10 @@ impl Start<'_> {
         })
     }
 
-    /// Returns the given velocities to remove so that the remaining ones are possible, the largest
-    /// difference first. All velocities of the list must be removed. The function also returns
-    /// which velocities remain given or kept, and whether the removal is sufficient.
+    /// Returns the given velocities that must be removed so that the remaining velocities are
+    /// possible, the largest difference first. All velocities of the list must be removed. The
+    /// function also returns which velocities remain given or kept, and whether the removal is
+    /// sufficient.
     fn leave_out(
         &self,
         rows: &[usize],
@@ -297,7 +298,7 @@ impl Start<'_> {
         Ok((needed, hold, true))
     }
 
-    /// Frees a velocity by removing one entry of the scene; also returns the previous states of the
+    /// Frees a velocity by removing one entry of the scene. Also returns the previous states of the
     /// freed velocities.
     fn free(&self, column: usize, hold: &mut [Hold]) -> (HeldVelocity, Vec<(usize, Hold)>) {
         let mechanism = self.equations.mechanism;
@@ -309,15 +310,16 @@ impl Start<'_> {
         } else {
             space.translations_of(at)
         };
-        // A `keep` entry is removed before the given velocity, because otherwise the entry would
-        // keep the value zero.
+        // A `keep` entry is removed before the given velocity. Otherwise the entry would keep the
+        // value zero.
         if let Some(kept) = own.clone().find(|&j| hold[j] == Hold::Kept) {
             let to = if self.is_written[kept] {
                 Hold::Given
             } else {
                 Hold::No
             };
-            // If all components of an angular velocity are kept, the scene has one entry for them.
+            // If all components of an angular velocity are kept, the scene has a single entry for
+            // all components.
             let is_whole = turns && own.clone().all(|j| self.hold[j] == Hold::Kept);
             let (coordinate, entry) = if is_whole {
                 ("omega", own)

@@ -1,13 +1,13 @@
-//! Transforms the angular velocities of bodies in space if only some of their ground components are
+//! Transforms the angular velocities of bodies in space for which only some ground components are
 //! kept.
 //!
 //! The columns of C for rotations refer to the axes in which the inertia J of the body is diagonal.
 //! For a body with kept components, the angular velocity is replaced by y with `ω = E·y`. The kept
-//! components are components of y. The kinetic energy contains neither products of a kept with a
-//! dependent component nor products of two different dependent components. Let a be the directions
-//! of the kept components, in the axes of J. For one direction, `e₁ = J⁻¹·a/(aᵀ·J⁻¹·a)`, and e₂, e₃
-//! are perpendicular to a with `e₂ᵀ·J·e₃ = 0`. For two directions, e₃ is the direction of the third
-//! ground axis, and `e_k = a_k − (a_kᵀ·J·e₃/e₃ᵀ·J·e₃)·e₃`.
+//! components are components of y. The kinetic energy does not contain products of a kept component
+//! and a dependent component, or products of two different dependent components. Let a be the
+//! directions of the kept components, in the axes of J. For one direction, `e₁ = J⁻¹·a/(aᵀ·J⁻¹·a)`,
+//! and e₂, e₃ are perpendicular to a with `e₂ᵀ·J·e₃ = 0`. For two directions, e₃ is the direction
+//! of the third ground axis, and `e_k = a_k − (a_kᵀ·J·e₃/e₃ᵀ·J·e₃)·e₃`.
 
 use std::ops::Range;
 
@@ -30,7 +30,7 @@ pub(super) struct Components {
 }
 
 impl Components {
-    /// Returns the bodies with one or two kept components of the angular velocity; `weights` is the
+    /// Returns the bodies with one or two kept components of the angular velocity. `weights` is the
     /// diagonal of M⁻¹.
     pub(super) fn kept(
         mechanism: &Mechanism,
@@ -136,7 +136,8 @@ type Pair = ([[f64; 3]; 3], [[f64; 3]; 3]);
 fn one(at: usize, a: [f64; 3], inertia: [f64; 3]) -> Pair {
     let along = [0, 1, 2].map(|k| a[k] / inertia[k]);
     let first = along.map(|x| x / dot(a, along));
-    // Two directions perpendicular to a, rotated so that the product of inertia of the two is zero.
+    // Two directions perpendicular to a. The directions are rotated so that their product of
+    // inertia is zero.
     let least = (1..3).fold(0, |k, j| if a[j].abs() < a[k].abs() { j } else { k });
     let unit = [0, 1, 2].map(|k| if k == least { 1.0 } else { 0.0 });
     let p = cross(a, unit);

@@ -8,8 +8,9 @@ use crate::words::{ROLL_TOGETHER, rough};
 #[error("{}; {}", self.what(), self.advice())]
 #[non_exhaustive]
 pub struct VelocityConflict {
-    /// The body of the wrong velocity. Among all wrong velocities, it is the one with the largest
-    /// difference from its given value if none of them is given.
+    /// The body of the wrong velocity. Each wrong velocity has a value that is computed if no wrong
+    /// velocity is given. For the reported velocity, the difference between this value and the
+    /// given value is largest.
     pub body: String,
     /// Name of the velocity: `vx`, `vy` or `omega`; in space `vx` to `wz`, in ground axes.
     pub coordinate: &'static str,
@@ -17,8 +18,8 @@ pub struct VelocityConflict {
     pub given: f64,
     /// Whether the velocity is in `keep`.
     pub is_kept: bool,
-    /// Value of the velocity if the wrong velocities are not given; if such velocities do not
-    /// exist, its value in the closest compatible velocities in the mass metric.
+    /// Value of the velocity if the wrong velocities are not given. If such velocities do not
+    /// exist, the value in the closest compatible velocities in the mass metric.
     pub nearest: f64,
     /// Largest permitted difference (m/s, rad/s).
     pub limit: f64,
@@ -28,7 +29,7 @@ pub struct VelocityConflict {
     pub with_others: bool,
     /// Drives, and joints that prescribe a velocity, to which these rows belong.
     pub drives: Vec<String>,
-    /// Velocities to remove so that the remaining ones are possible.
+    /// Velocities that must be removed so that the remaining velocities are possible.
     pub leave_out: Vec<HeldVelocity>,
     /// Whether the removal of `leave_out` is sufficient. It is not sufficient if more velocities
     /// contradict the constraints than the search can find.
@@ -47,7 +48,7 @@ pub struct LockedBodies {
     pub bodies: Vec<String>,
     /// The joints and drives of the rows.
     pub joints: Vec<String>,
-    /// The joints of nonholonomic rows among these, such as wheels.
+    /// The joints in `joints` with nonholonomic rows, such as wheels.
     pub wheels: Vec<String>,
 }
 
@@ -92,8 +93,8 @@ const NAMED: usize = 6;
 pub(super) const CANCELLED: f64 = 1e-10;
 
 impl VelocityConflict {
-    /// Merges several conflicts into the one with the largest difference, with all velocities to
-    /// remove.
+    /// Merges several conflicts into the conflict with the largest difference. The result lists all
+    /// velocities that must be removed.
     pub(super) fn merged(conflicts: Vec<Self>) -> Option<Self> {
         let off = |c: &Self| (c.nearest - c.given).abs() / c.limit;
         conflicts.into_iter().reduce(|mut a, mut b| {
@@ -200,7 +201,8 @@ impl VelocityConflict {
             [only] => ways.push(format!(
                 "omit {only}, so that it follows from the other velocities"
             )),
-            // All of them are listed, because removing fewer would not be sufficient.
+            // All of these velocities are listed, because the removal of fewer velocities would not
+            // be sufficient.
             [first @ .., last] => ways.push(format!(
                 "omit {} and {last}, so that they follow from the other velocities",
                 first.join(", ")
@@ -229,7 +231,7 @@ impl VelocityConflict {
     }
 }
 
-/// Formats a velocity with five digits; the result is zero if the velocity is not larger than the
+/// Formats a velocity with five digits. The result is zero if the velocity is not larger than the
 /// rounding error of `beside`.
 fn short(x: f64, beside: f64) -> String {
     let x = if x.abs() <= CANCELLED * beside.abs() {
@@ -240,7 +242,7 @@ fn short(x: f64, beside: f64) -> String {
     crate::words::digits(x, 5)
 }
 
-/// Returns the first names as a list, and the number of the remaining ones.
+/// Returns the first names as a list, and the number of the remaining names.
 fn named(all: &[String]) -> String {
     let first = all
         .iter()

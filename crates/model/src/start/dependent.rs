@@ -4,9 +4,9 @@
 //!
 //! Sets of rows that have no dependent velocity in common are solved separately. Small sets are
 //! solved directly, after the rank of their columns has been determined. The remaining rows form
-//! circuits; the sums of their right-hand sides determine whether the velocities exist. Large sets
-//! are solved with their Schur complement. Other modules select the dependent velocities, and
-//! process velocities that are impossible.
+//! circuits. The sums of the right-hand sides over the circuits determine whether the velocities
+//! exist. Large sets are solved with their Schur complement. Other modules select the dependent
+//! velocities, and process velocities that are impossible.
 //!
 //! The rank of these columns is not the rank of the constraints.
 
@@ -28,13 +28,13 @@ use crate::space::norm;
 use crate::system::{Scratch, System};
 use crate::uncertainty::ConfigurationAccuracy;
 
-/// Sets with more rows than this are solved with their Schur complement, because dense
+/// Sets with more rows than this limit are solved with their Schur complement, because dense
 /// factorisations would take seconds.
 pub(super) const DENSE_ROWS: usize = 300;
 
 /// In large sets, a row counts as dependent on other rows if its remaining part is below this
 /// fraction. The limit is large because the condition number of the Schur complement is the square
-/// of that of the rows.
+/// of the condition number of the rows.
 const LEFT: f64 = 1e-7;
 
 /// In large sets, a row is ignored if its entries are below this multiple of their uncertainties.
@@ -42,8 +42,8 @@ const LEFT: f64 = 1e-7;
 const SIGNIFICANT: f64 = 1e3;
 
 /// Largest number of repetitions of the solution. A repetition removes all errors except rounding
-/// errors. If the metric makes independent rows appear dependent, the effect of the damping remains
-/// as well.
+/// errors. If independent rows appear dependent in the metric, the effect of the damping remains as
+/// well.
 const REPETITIONS: usize = 6;
 
 /// A repetition has to reduce the residuals to less than this fraction.
@@ -57,11 +57,11 @@ pub(super) struct Equations<'m> {
     pub(super) size: f64,
     /// Diagonal of M⁻¹; velocities without mass have the weight of the smallest mass.
     pub(super) weights: Vec<f64>,
-    /// Bodies for which only some components of the angular velocity are kept; their columns are
-    /// transformed.
+    /// Bodies for which only some components of the angular velocity are kept. The columns of these
+    /// bodies are transformed.
     components: Vec<Components>,
-    /// The reciprocal of this rate (1/s) is a time. A velocity counts as zero if it changes
-    /// positions during this time by less than 100 times their rounding error.
+    /// The reciprocal of this rate (1/s) is a time. A velocity counts as zero if, during this time,
+    /// it changes positions by less than 100 times their rounding error.
     rest_rate: f64,
     /// Uncertainty of the entries in the pattern of C; computed on request.
     known: Option<Vec<f64>>,
@@ -114,8 +114,9 @@ impl<'m> Equations<'m> {
         self.mechanism.layout().velocity_residual(&self.s, i, v)
     }
 
-    /// Returns the largest residual of row `i` that counts as rounding. It contains the rounding
-    /// error of the terms, and that of the positions of the bodies times the largest rate.
+    /// Returns the largest residual of row `i` that counts as rounding. This limit contains the
+    /// rounding error of the terms, and the rounding error of the positions of the bodies times the
+    /// largest rate.
     pub(super) fn rounding(&self, i: usize, v: &[f64]) -> f64 {
         let row = self.mechanism.layout().row(&self.s, i);
         let fastest = self.fastest(row.map(|(j, _)| j), v);
@@ -151,7 +152,8 @@ impl<'m> Equations<'m> {
     }
 
     /// Returns the limit below which velocity `j` counts as zero if other bodies move at this rate
-    /// (1/s). The limit includes the rounding errors of a common solution for all these velocities.
+    /// (1/s). The limit includes the rounding errors of a solution that computes all these
+    /// velocities together.
     pub(super) fn rest_at(&self, j: usize, rate: f64) -> f64 {
         let body = self.mechanism.space().body_of(j);
         let place = norm(&self.s.bodies.origin(body)).max(self.size);
@@ -180,7 +182,7 @@ impl<'m> Equations<'m> {
     }
 
     /// Returns the sets of rows that have velocity components in common. Each set is in ascending
-    /// order, and the sets are in the order of their first rows. Only velocity components for which
+    /// order, and the sets are ordered by their first rows. Only velocity components for which
     /// `joins` returns `true` connect rows.
     pub(super) fn sets(&self, rows: &[usize], joins: impl Fn(usize) -> bool) -> Vec<Vec<usize>> {
         let layout = self.mechanism.layout();
@@ -260,8 +262,8 @@ enum Solver {
 }
 
 impl DependentVelocities {
-    /// Prepares the solution of some rows for the velocity components for which `follows` returns
-    /// `true`.
+    /// Prepares the solution of some rows. The unknowns are the velocity components for which
+    /// `follows` returns `true`.
     ///
     /// # Errors
     /// Returns an error if C is not finite.
@@ -444,9 +446,9 @@ impl RowBlock {
     }
 }
 
-/// Returns the step of smallest norm that removes the residuals of the rows; the metric is given by
-/// inverse masses. The step is exact if the rows are independent to working precision, even for
-/// very different masses; otherwise it is damped.
+/// Returns the step of smallest norm that removes the residuals of the rows. The metric is given by
+/// inverse masses. If the rows are independent to working precision, the step is exact, even for
+/// very different masses. Otherwise the step is damped.
 pub(super) fn shortest(
     c: &Matrix,
     residual: &[f64],

@@ -27,7 +27,7 @@ pub enum StartError {
         /// Number of iterations.
         iterations: usize,
     },
-    /// The closest consistent configuration is far from the described one.
+    /// The closest consistent configuration is far from the described configuration.
     #[error(
         "the start must be corrected by {correction} ({coordinate} of body `{body}`), more than the allowed {limit}: \
          as described, these constraints are violated: {}; correct the scene, or set `allow_correction = true` in `[start]`",
@@ -47,14 +47,14 @@ pub enum StartError {
         /// violation first.
         misfits: Vec<Misfit>,
     },
-    /// One-sided joints are described on the side to which they cannot open.
+    /// One-sided joints are described on the side to which their gap cannot open.
     #[error(
         "one-sided joints are described on the side to which they cannot open: {}; move the bodies to the other \
          side, or turn the normal (in the plane `toward`) round",
         depths(joints)
     )]
     WrongSide {
-        /// The joints, each with its distance from being closed (m), the deepest first.
+        /// The joints, each with the depth of its gap on the wrong side (m), the deepest first.
         joints: Vec<(String, f64)>,
     },
     /// The given or kept velocities are impossible.
@@ -90,8 +90,8 @@ pub enum StartError {
         /// Number of bodies.
         bodies: usize,
     },
-    /// The origin of a body frame is in `keep` without the rotation of the body, but it is not the
-    /// centre of mass.
+    /// The origin of a body frame is in `keep`, but the rotation of the body is not. The origin is
+    /// not the centre of mass.
     #[error(
         "`keep` holds the origin of the frame of body `{body}`, which is not its centre of mass; {}",
         needed(body, *level, rotation)
@@ -104,7 +104,7 @@ pub enum StartError {
         /// Name of the rotation of the body in `keep`.
         rotation: &'static str,
     },
-    /// The rows do not permit any velocities, whatever the given velocities are.
+    /// The rows do not permit any velocities, for any given velocities.
     #[error(
         "no velocities satisfy the constraints: row {worst} is violated by {residual}; dependent or nearly dependent rows require different velocities: correct or delete one of them", residual = short(*residual))]
     NoVelocity {
@@ -192,7 +192,7 @@ fn needed(body: &str, level: KeepLevel, rotation: &str) -> String {
     }
 }
 
-/// Lists joints with their distances from being closed.
+/// Lists joints with the depths of their gaps.
 fn depths(joints: &[(String, f64)]) -> String {
     let depth = |(name, depth): &(String, f64)| format!("`{name}` by {}", quantity(*depth, "m"));
     let mut named: Vec<String> = joints.iter().take(FEW).map(depth).collect();

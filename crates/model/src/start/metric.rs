@@ -1,5 +1,5 @@
-//! Functions for all steps of the computation of an initial state: weights, bounds, matrices of a
-//! few rows.
+//! Functions for all steps of the computation of an initial state: weights, bounds, and matrices of
+//! a few rows.
 
 use linalg::Matrix;
 
@@ -22,7 +22,8 @@ pub(super) const SMALL_CORRECTION: f64 = 1e-3;
 /// terms.
 pub(super) const ROUNDINGS: f64 = 10.0;
 
-/// Largest number of entries of the matrix for a correction; this is 1 GB.
+/// Largest number of entries of the matrix for a correction. A matrix with this number of entries
+/// takes 1 GB.
 const MOST_ENTRIES: usize = 1 << 27;
 
 /// Returns a dense matrix of these rows of C. The function allocates memory.
@@ -46,7 +47,7 @@ pub(super) fn dense_rows(
     Ok(c)
 }
 
-/// Returns the row with the largest value; NaN counts as the largest.
+/// Returns the row with the largest value. NaN counts as the largest value.
 pub(super) fn largest(rows: impl Iterator<Item = (usize, f64)>) -> (usize, f64) {
     rows.fold(
         (0, 0.0),
@@ -55,7 +56,7 @@ pub(super) fn largest(rows: impl Iterator<Item = (usize, f64)>) -> (usize, f64) 
 }
 
 /// Masses, and inertias divided by the square of the size, are raised to this fraction of the
-/// largest value. Lighter bodies have no effect on heavy ones, but the squares of their weights
+/// largest value. Lighter bodies have no effect on heavy bodies, but the squares of their weights
 /// would overflow.
 const LIGHTEST: f64 = 1e-30;
 

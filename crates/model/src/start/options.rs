@@ -11,9 +11,9 @@ pub struct StartOptions {
     /// Coordinates and velocities that exactly keep their described values. A kept velocity that is
     /// not given is zero.
     pub keep: Vec<Coordinate>,
-    /// Whether larger corrections are accepted: of positions by more than a thousandth of the size
-    /// of the scene, or of given velocities by more than a thousandth of the largest velocity
-    /// coupled with them.
+    /// Whether larger corrections are accepted. Without this option, positions are corrected by at
+    /// most a thousandth of the size of the scene. Given velocities are corrected by at most a
+    /// thousandth of the largest velocity coupled with them.
     pub correction: CorrectionLimit,
     /// Initial poses of bodies that do not start at the pose given in their definition. Reference
     /// points, initial values and the zeros of joint coordinates are still computed from the pose
@@ -33,8 +33,8 @@ pub struct StartPose {
 /// Limit for corrections of the initial state.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum CorrectionLimit {
-    /// Positions may be corrected by up to a thousandth of the size of the scene, and angles by a
-    /// thousandth of a radian. Given velocities may be corrected by up to a thousandth of the
+    /// Positions may be corrected by up to a thousandth of the size of the scene, and angles by up
+    /// to a thousandth of a radian. Given velocities may be corrected by up to a thousandth of the
     /// largest velocity.
     #[default]
     Small,
@@ -61,7 +61,7 @@ pub enum KeepLevel {
     /// Position: `x`, `y` or `angle`; in space `x`, `y`, `z` or `rotation`.
     Position,
     /// Velocity: `vx`, `vy` or `omega`; in space `vx`, `vy`, `vz`, `wx`, `wy`, `wz`, or `omega` for
-    /// the last three.
+    /// the last three velocities.
     Velocity,
 }
 

@@ -4,7 +4,7 @@
 //! The rows of a joint are products of directions. The equations `u·w' = v·w' = 0` are satisfied
 //! for w' = w and for w' = −w, and three conditions of this kind have four orientations as
 //! solutions. During the assembly, the rotation vector of the remaining rotation replaces these
-//! products. The vector is zero only if the axes have the described directions; near this
+//! products. The rotation vector is zero only if the axes have the described directions. Near this
 //! orientation it is equal to the products.
 
 use std::f64::consts::PI;
@@ -13,25 +13,25 @@ use std::ops::Range;
 use crate::element::PlacedConstraint;
 use crate::system::Scratch;
 
-/// Below this value, the angle is used in place of its sine, because the next term of the series is
+/// Below this value, the angle is used instead of its sine, because the next term of the series is
 /// negligible.
 const SERIES: f64 = 1e-4;
 
 /// The rows of one joint that keep axes parallel.
 pub(super) struct Parallel {
-    /// The rows: two if the bodies may rotate about the axis, otherwise three.
+    /// The rows. There are two rows if the bodies may rotate about the axis, and otherwise three.
     pub(super) rows: Range<usize>,
     /// The remaining angle (rad), 0 to π.
     pub(super) angle: f64,
-    /// For each row, the residual with the products of directions replaced (rad), and its
-    /// derivative with respect to the angular velocity of the second body relative to the first, in
-    /// ground axes.
+    /// For each row, the residual (rad) in which the rotation vector replaces the products of
+    /// directions. The second value is the derivative of the residual with respect to the angular
+    /// velocity of the second body relative to the first, in ground axes.
     pub(super) each: [(f64, [f64; 3]); 3],
 }
 
 impl Parallel {
-    /// Returns the rows of a joint at the configuration in the work space; `None` if the joint does
-    /// not keep axes parallel.
+    /// Returns the rows of a joint at the configuration in the work space, or `None` if the joint
+    /// does not keep axes parallel.
     pub(super) fn of(joint: &PlacedConstraint, s: &Scratch) -> Option<Self> {
         let [own, other] = joint.parallel_axes(&s.slots)?;
         let names = joint.spec().rows;
@@ -50,7 +50,7 @@ impl Parallel {
         })
     }
 
-    /// Returns whether the axes have the described direction; the rows of the joint must be
+    /// Returns whether the axes have the described direction. The rows of the joint must be
     /// satisfied.
     pub(super) fn is_as_described(&self) -> bool {
         self.angle < 0.5 * PI
@@ -59,8 +59,8 @@ impl Parallel {
 
 type Residuals = (f64, [(f64, [f64; 3]); 3]);
 
-/// For the smallest rotation of w to `other`, returns the components `α/sin α·(u·w', v·w')` of the
-/// rotation vector along v and −u.
+/// Returns the components `α/sin α·(u·w', v·w')` of a rotation vector along v and −u. The rotation
+/// is the smallest rotation of w to `other`.
 fn swing([u, v, w]: [[f64; 3]; 3], other: [f64; 3]) -> Residuals {
     let (along_u, along_v, cos) = (dot(u, other), dot(v, other), dot(w, other));
     let sin = along_u.hypot(along_v);
@@ -86,7 +86,7 @@ fn swing([u, v, w]: [[f64; 3]; 3], other: [f64; 3]) -> Residuals {
     (angle, [row(along_u, u), row(along_v, v), (0.0, [0.0; 3])])
 }
 
-/// Returns the components along v, −u and w of the rotation vector θ of the rotation from these
+/// Returns the components along v, −u and w of a rotation vector θ. The rotation transforms these
 /// axes to `other`. With ω in these axes, `θ̇ = ω − ½·θ×ω + β·θ×(θ×ω)`, `β = (1 − ½θ·cot ½θ)/θ²`.
 fn whole_rotation(own: [[f64; 3]; 3], other: [[f64; 3]; 3]) -> Residuals {
     let [w, e @ ..] = quaternion(own.map(|a| other.map(|b| dot(a, b))));
@@ -117,8 +117,8 @@ fn whole_rotation(own: [[f64; 3]; 3], other: [[f64; 3]; 3]) -> Residuals {
     (angle, [v, minus(u), w])
 }
 
-/// Returns the unit quaternion with w ≥ 0 of a rotation matrix (by rows), computed from the largest
-/// component.
+/// Returns the unit quaternion with w ≥ 0 of a rotation matrix (by rows). The quaternion is
+/// computed from its largest component.
 fn quaternion(r: [[f64; 3]; 3]) -> [f64; 4] {
     let [[xx, xy, xz], [yx, yy, yz], [zx, zy, zz]] = r;
     // Row k is 4·e_k·e, where e is the quaternion.

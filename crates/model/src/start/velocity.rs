@@ -1,14 +1,13 @@
-//! Initial velocities. The other velocities are computed from the given ones and from prescribed
-//! motions, with the smallest kinetic energy.
+//! Initial velocities. Velocities that are not given are computed from the given velocities and
+//! from prescribed motions, with the smallest kinetic energy.
 //!
 //! Given velocities may be rounded to a few digits. Impossible given velocities are replaced by the
-//! closest possible ones in the mass metric. If these differ from the given velocities by more than
-//! the permitted correction, the error names the wrong velocities. Velocities in `keep` do not
-//! change.
+//! closest possible velocities in the mass metric. If the difference exceeds the permitted
+//! correction, the error contains the wrong velocities. Velocities in `keep` do not change.
 //!
 //! Residuals are compared with the rounding errors of their own terms, and velocities at rest with
-//! the rounding errors of positions. They are not compared with a solution, because the solution
-//! may be zero.
+//! the rounding errors of positions. Residuals and velocities are not compared with a solution,
+//! because the solution may be zero.
 //!
 //! We rejected a single least-squares problem for all velocities: a crank with a given rate of 10
 //! rad/s slowed down because of the bodies connected to it.
@@ -27,27 +26,28 @@ use crate::mechanism::Mechanism;
 pub struct StartVelocity {
     /// The velocities.
     pub v: Vec<f64>,
-    /// The velocities minus the given ones; zero for velocities that are not given.
+    /// The velocities minus the given velocities. The value is zero for velocities that are not
+    /// given.
     pub correction: Vec<f64>,
 }
 
 /// Whether a velocity is computed, given or kept.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Hold {
-    /// The velocity is computed from the others.
+    /// The velocity is computed from the other velocities.
     No,
-    /// The velocity is given, and its accuracy is that of its digits.
+    /// The velocity is given. The accuracy of the velocity is the accuracy of the given digits.
     Given,
     /// The velocity is given as an exact value.
     Kept,
 }
 
 /// Number of corrections of given velocities. Each correction after the first removes the rounding
-/// error of the previous one.
+/// error of the previous correction.
 const PASSES: usize = 5;
 
-/// In large sets, the weight of dependent velocities relative to that of given velocities. This
-/// weight is so small that it has no effect on the result.
+/// In large sets, the weight of dependent velocities relative to the weight of given velocities.
+/// This weight is so small that it has no effect on the result.
 const CHEAP: f64 = 1e-6;
 
 /// Entries of a sum of rows count as rounding if they are below this fraction of the terms of the
@@ -55,12 +55,12 @@ const CHEAP: f64 = 1e-6;
 const CANCELLED: f64 = 1e-12;
 
 /// Returns velocities that satisfy `C·v = b` in the rows `kept` at an assembled configuration.
-/// Given velocities are used, and the others have the smallest kinetic energy, `M·v = Cᵀ·μ`.
-/// Velocities without mass or inertia have the weight of the smallest mass or inertia.
+/// Given velocities are used, and the other velocities have the smallest kinetic energy, `M·v =
+/// Cᵀ·μ`. Velocities without mass or inertia have the weight of the smallest mass or inertia.
 ///
-/// Given velocities that are compatible up to rounding do not change. Otherwise, they are corrected
-/// by the smallest change in the mass metric. Velocities that `options` keep do not change; they
-/// need not be given.
+/// Given velocities that are compatible up to rounding do not change. Incompatible velocities are
+/// corrected by the smallest change in the mass metric. Velocities that `options` keep do not
+/// change. Kept velocities need not be given.
 ///
 /// ```
 /// use joints::Revolute;
@@ -138,7 +138,7 @@ pub(super) struct Start<'m> {
 /// Reason why some rows have no acceptable velocities.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Miss {
-    /// The closest velocities are too far from the given ones.
+    /// The closest velocities are too far from the given velocities.
     Far,
     /// The rows do not permit any velocities; this row has the largest residual.
     Open(usize),
@@ -176,7 +176,7 @@ impl<'m> Start<'m> {
             .any(|&i| exceeds(of.residual(i, v).abs(), of.rounding(i, v)))
     }
 
-    /// Computes the velocities for some rows; the rows must include all rows that have a velocity
+    /// Computes the velocities for some rows. The rows must include all rows that have a velocity
     /// in common with them. Returns the reason if there are no acceptable velocities.
     ///
     /// # Errors
@@ -217,7 +217,7 @@ impl<'m> Start<'m> {
             dependent.follow(of, v)?;
         }
         // A velocity that is given as zero up to rounding is set to zero. Otherwise, the iteration
-        // for a locked part would reduce it in every step without an end.
+        // for a locked part would reduce this velocity in every step and would not end.
         let is_still = |&j: &usize| v[j].abs().max(self.written[j].abs()) <= of.rest_of(j);
         if columns.iter().all(is_still) && rows.iter().all(|&i| of.s.b[i] == 0.0) {
             for &j in columns.iter().filter(|&&j| hold[j] != Hold::Kept) {
@@ -229,8 +229,7 @@ impl<'m> Start<'m> {
             .or_else(|| self.far(&columns, hold, limit, v)))
     }
 
-    /// Adds the smallest correction of the given velocities for which the sums over circuits become
-    /// zero.
+    /// Adds the smallest correction of the given velocities that makes the sums over circuits zero.
     fn correct(
         &self,
         dependent: &DependentVelocities,
@@ -268,8 +267,8 @@ impl<'m> Start<'m> {
         Ok(())
     }
 
-    /// Works like [`Self::correct`], for many rows: the other velocities are variables with almost
-    /// zero weight.
+    /// Works like [`Self::correct`], for many rows. Here, the dependent velocities are variables
+    /// with almost zero weight.
     fn correct_many(&self, rows: &[usize], hold: &[Hold], v: &mut [f64]) -> Result<(), StartError> {
         let of = &self.equations;
         let mut columns = of.columns(rows);
@@ -287,13 +286,15 @@ impl<'m> Start<'m> {
         Ok(())
     }
 
-    /// Returns the row with the largest residual, if it exceeds the limits for rounding and rest.
+    /// Returns the row with the largest residual if the residual exceeds the limits for rounding
+    /// and rest.
     fn open(&self, rows: &[usize], columns: &[usize], v: &[f64]) -> Option<Miss> {
         let of = &self.equations;
         // Velocities that are computed together are accurate to the rounding error of the largest
-        // one.
+        // of these velocities.
         let rate = of.fastest(columns.iter().copied(), v);
-        // The rounding error may be slightly larger than that of the terms of one row.
+        // The rounding error may be slightly larger than the rounding error of the terms of one
+        // row.
         let excess = |i: usize| {
             of.residual(i, v).abs() / (ROUNDINGS * of.rounding(i, v) + of.slack(i, rate))
         };
@@ -322,9 +323,10 @@ impl<'m> Start<'m> {
             .then_some(Miss::Far)
     }
 
-    /// Returns the largest permitted correction of a given velocity. It is a thousandth of the
-    /// largest velocity with common rows, plus the limit of rest for the largest of all velocities.
-    /// Rotations are multiplied by the size of the mechanism.
+    /// Returns the largest permitted correction of a given velocity. The permitted correction is a
+    /// thousandth of the largest velocity that has rows in common with this velocity, plus the
+    /// limit of rest for the largest of all velocities. Rotations are multiplied by the size of the
+    /// mechanism.
     pub(super) fn allowed(&self, j: usize, columns: &[usize], hold: &[Hold], v: &[f64]) -> f64 {
         let of = &self.equations;
         if hold[j] == Hold::Kept {

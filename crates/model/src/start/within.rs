@@ -1,9 +1,9 @@
-//! Initial configurations of mechanisms with stated tolerances. Rows may have residuals that the
-//! data explain, and no body is moved far to remove these residuals.
+//! Initial configurations of mechanisms with stated tolerances. Rows may have residuals that can
+//! result from the tolerances of the data. No body is moved far to remove these residuals.
 //!
-//! Suppose that two sliders on one line differ by a rounding error. The sliders coincide if one of
-//! them is rotated by the square root of this error, or if it is far away. This configuration
-//! satisfies all rows, but it is not the intended one.
+//! Suppose that the lines of two sliders should be equal but differ by a rounding error. The
+//! sliders coincide if one slider is rotated by the square root of this error, or if it is far
+//! away. Such a configuration satisfies all rows, but it is not the intended configuration.
 
 use linalg::{Matrix, small_svd};
 
@@ -18,12 +18,12 @@ use crate::system::{Scratch, System};
 /// If a change of the data within the tolerance moves a body by more than this multiple of the
 /// tolerance, the data do not determine the position of the body. Residuals along this motion are
 /// not removed. A lever arm is determined by two points, so this limit must not be much larger than
-/// two. With ten, for a tolerance of 0.1 mm, arms of 0.7 mm that only the refinement of the
-/// configuration had caused were reported as nonzero.
+/// two. With a limit of ten and a tolerance of 0.1 mm, arms of 0.7 mm were reported as nonzero
+/// although only the refinement of the configuration had caused them.
 const AMPLIFIED: f64 = 3.0;
 
-/// Largest number of rows for which these directions are computed; the computing time is
-/// proportional to the cube of the number.
+/// Largest number of rows for which these directions are computed. The computing time is
+/// proportional to the cube of the number of rows.
 const ROWS: usize = 200;
 
 /// Largest number of iterations. Except along the omitted directions, each iteration doubles the
@@ -63,16 +63,16 @@ fn reach(mechanism: &Mechanism, s: &Scratch, rows: &[usize]) -> Vec<f64> {
     rows.iter().map(of_row).collect()
 }
 
-/// Returns whether data within the tolerance explain the residual of each of these rows.
+/// Returns whether the residual of each of these rows can result from data within the tolerance.
 pub(super) fn is_within(mechanism: &Mechanism, s: &Scratch, rows: &[usize]) -> bool {
     let reach = reach(mechanism, s, rows);
     let mut each = rows.iter().zip(reach);
     each.all(|(&row, reach)| s.phi[row].abs() <= SHARED * reach)
 }
 
-/// Returns the displacement of a body along each column of C that corresponds to one tolerance: the
-/// tolerance for translations, and for rotations the angle that moves a point at the distance of
-/// the size by this tolerance.
+/// Returns the displacement of a body along each column of C that corresponds to one tolerance. For
+/// translations, the displacement is the tolerance. For rotations, it is the angle that moves a
+/// point at the distance of the size by this tolerance.
 fn units(mechanism: &Mechanism, s: &Scratch, size: f64) -> Vec<f64> {
     let [length, angle] = largest(&mechanism.data().blocks(s));
     let length = match length {
@@ -108,9 +108,10 @@ pub(crate) fn is_beyond(mechanism: &Mechanism, s: &Scratch, from: &[f64], to: &[
         ) > AMPLIFIED
 }
 
-/// Returns the intended configuration; `found` is the configuration that satisfies the rows as well
-/// as possible. The result is `found`, unless another configuration exists whose residuals the data
-/// explain completely and whose distance from `found` exceeds the uncertainty of positions.
+/// Returns the intended configuration. `found` is the configuration that satisfies the rows as well
+/// as possible. The function returns another configuration only if two conditions are satisfied:
+/// the residuals of this configuration can result from data within the tolerance, and its distance
+/// from `found` exceeds the uncertainty of positions. Otherwise it returns `found`.
 pub(super) fn within_data(
     mechanism: &Mechanism,
     s: &mut Scratch,
@@ -137,10 +138,10 @@ pub(super) fn within_data(
     }
 }
 
-/// Returns the closest configuration in the mass metric that satisfies the rows, but only along the
-/// directions in which the data determine the positions. A singular direction is omitted if one
-/// tolerance moves a body along it by many tolerances. Returns `None` if a row has a larger
-/// residual than the data explain.
+/// Returns the configuration that satisfies the rows and is closest in the mass metric. The
+/// configuration changes only along the directions in which the data determine the positions. A
+/// singular direction is omitted if one tolerance moves a body along it by many tolerances. Returns
+/// `None` if a row has a larger residual than data within the tolerance can cause.
 fn truncated(
     mechanism: &Mechanism,
     s: &mut Scratch,

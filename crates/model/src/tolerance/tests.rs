@@ -17,8 +17,8 @@ fn body(name: &str, x: f64) -> Body {
     }
 }
 
-/// A pin with a motor between two bodies and a gear; the second body has a roller on a line of the
-/// ground and a knife edge.
+/// A pin with a motor between two bodies, and a gear. The second body has a roller on a line of the
+/// ground, and a knife edge.
 fn description() -> Description {
     let mut d = Description::new("stated");
     let i = d.body(body("left", 0.0));
@@ -50,8 +50,8 @@ fn blocks(mechanism: &Mechanism) -> Vec<DataBlock> {
     mechanism.data().blocks(&s)
 }
 
-/// Returns the tolerances of the data of a joint or drive, in the order of the data: for a line
-/// first the point, then the direction.
+/// Returns the tolerances of the data of a joint or drive, in the order of the data. For a line,
+/// the tolerance of the point comes before the tolerance of the direction.
 fn stated(mechanism: &Mechanism, joint: &str) -> Vec<Option<f64>> {
     let groups = &mechanism.layout().groups;
     let own = blocks(mechanism).into_iter();
