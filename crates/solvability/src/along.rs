@@ -1,16 +1,18 @@
-//! Verdicts along a motion: by time interval, with the instants at which the verdicts differ, and
-//! the singular configurations.
+//! Verdicts along a motion: the verdicts by time interval, the instants at which the verdicts
+//! differ, and the singular configurations.
 //!
 //! Rank and verdicts are constant on each component of the configuration set except on a nowhere
-//! dense part of it. Between break times, if the functions of time of the drives are analytic, they
-//! are therefore constant except at isolated instants, unless a whole interval of the motion lies
-//! in the exceptional part. The result for a motion therefore consists of verdicts by time interval
-//! ([`Stretches`]), special instants with other verdicts, and singular configurations
-//! ([`Passage`]), at which the rank drops for an instant.
+//! dense part of it. Suppose that the functions of time of the drives are analytic between break
+//! times. Rank and verdicts are then constant between break times except at isolated instants,
+//! unless a whole interval of the motion lies in the exceptional part. Therefore the result for a
+//! motion consists of three parts: verdicts by time interval ([`Stretches`]), special instants with
+//! other verdicts, and singular configurations ([`Passage`]), at which the rank drops for an
+//! instant.
 //!
-//! States are moved onto the constraints before anything is decided. An instant between two sample
-//! times is found if the smallest singular value, or the margin of a component, decreases towards
-//! it at the sample times, or if the determinant of the independent rows changes its sign.
+//! States are moved onto the constraints before any decision. An instant between two sample times
+//! is found in two cases. In the first case, the smallest singular value, or the margin of a
+//! component, decreases towards the instant at the sample times. In the second case, the
+//! determinant of the independent rows changes its sign.
 
 mod border;
 mod compare;
@@ -37,8 +39,8 @@ pub use data::{
     AlongError, Difference, GenericRank, MotionAnalysis, Passage, PassageKind, Stretch,
 };
 
-/// Computes the verdicts along a motion of a mechanism. `motion` returns the state at a given time;
-/// it is called only for times between the first and the last sample time. The motion may be a
+/// Computes the verdicts along a motion of a mechanism. `motion` returns the state at a given time
+/// and is called only for times between the first and the last sample time. The motion may be a
 /// closed form or the dense output of a simulation. Break times of functions of time are sampled as
 /// well.
 ///
@@ -82,7 +84,8 @@ pub fn along_motion(
     let of_part = |t: f64, extent: &Extent| {
         let whole = match motion.lock() {
             Ok(mut motion) => motion(t),
-            // If another thread has panicked with the lock, its panic is propagated there.
+            // If another thread has panicked while it held the lock, its panic is propagated in
+            // that thread.
             Err(poisoned) => poisoned.into_inner()(t),
         };
         if extent.is_whole() {
@@ -98,12 +101,12 @@ pub fn along_motion(
 }
 
 /// Works like [`along_motion`], for a motion that can return the coordinates and velocities of a
-/// single part. For large mechanisms, `motion` is called often, each time for a few parts only. The
-/// verdicts are those of the simulation that computed the motion, if they are given; the search
+/// single part. For large mechanisms, `motion` is called often, each time for a few parts only. If
+/// the simulation that computed the motion has verdicts, these verdicts are used, and the search
 /// adds its special instants. Otherwise the verdicts at the sample times are used.
 ///
 /// # Errors
-/// Same errors as [`along_motion`].
+/// Returns the same errors as [`along_motion`].
 pub fn along_motion_of_parts(
     mechanism: &Mechanism,
     motion: impl Fn(f64, &Extent) -> State + Sync,
@@ -124,8 +127,8 @@ pub fn along_motion_of_parts(
     }
 }
 
-/// Works like [`along_motion`], for a mechanism that is a single part; `times` already include the
-/// break times.
+/// Works like [`along_motion`], for a mechanism that is a single part. The list `times` must
+/// already include the break times.
 fn judged_as_one(
     mechanism: &Mechanism,
     motion: impl FnMut(f64) -> State,
@@ -167,11 +170,11 @@ fn judged_as_one(
     })
 }
 
-/// Finds only the singular and nearly singular configurations of a motion, without the verdicts at
-/// these configurations. This takes a fraction of the time of [`along_motion`].
+/// Finds only the singular and nearly singular configurations of a motion, without their verdicts.
+/// This search takes a fraction of the time of [`along_motion`].
 ///
 /// # Errors
-/// Same errors as [`along_motion`].
+/// Returns the same errors as [`along_motion`].
 pub fn singular_passages(
     mechanism: &Mechanism,
     motion: impl FnMut(f64) -> State,
@@ -189,8 +192,9 @@ pub fn singular_passages(
     Ok(told.collect())
 }
 
-/// Returns the sample times and the break times between them. It adds one time within each interval
-/// between break times, and the special instants of the simulation that computed the motion.
+/// Returns the sample times and the break times between them. The function adds one time within
+/// each interval between break times, and the special instants of the simulation that computed the
+/// motion.
 fn with_break_times(
     mechanism: &Mechanism,
     times: &[f64],

@@ -36,7 +36,7 @@ pub struct Analysis {
     pub velocities: usize,
     /// Size of the mechanism (m).
     pub size: f64,
-    /// Tolerance of the data, unless a tolerance is stated for their joint or body.
+    /// Tolerance of the data for which neither the joint nor the body states a tolerance.
     pub tolerance: Tolerance,
     /// Number of holonomic rows m.
     pub holonomic_rows: usize,
@@ -48,13 +48,14 @@ pub struct Analysis {
     pub rank_nonholonomic: usize,
     /// Rank, redundancy and independent (kept) rows of C.
     pub decision: RowDecision,
-    /// Independent rows that are nearly dependent, from the part in which they are closest to a
-    /// dependency.
+    /// Independent rows that are nearly dependent. The rows belong to the part in which the rows
+    /// are closest to a dependency.
     pub nearly_redundant: Option<NearlyRedundant>,
     /// Verdicts of joints and drives in the order of their rows.
     pub reactions: Vec<ReactionVerdict>,
-    /// Dependencies, ordered by part, short ones first. Their number is the degree of redundancy,
-    /// or less if more rows depend on each other than can be analysed together.
+    /// Dependencies, ordered by part, short dependencies first. The number of dependencies is the
+    /// degree of redundancy, or less if more rows depend on each other than can be analysed
+    /// together.
     pub dependencies: Vec<Dependency>,
     /// Further remarks for the user.
     pub warnings: Vec<String>,
@@ -94,9 +95,9 @@ impl Analysis {
         }
     }
 
-    /// Returns the decision on all rows with all dependencies, assembled from the parts, or `None`
-    /// if there are too many rows. The evidence of the decision is the evidence of the weakest
-    /// part.
+    /// Returns the decision on all rows with all dependencies, assembled from the parts. Returns
+    /// `None` if there are too many rows. The evidence of the decision is the evidence of the
+    /// weakest part.
     #[must_use]
     pub fn whole(&self) -> Option<Cow<'_, RankDecision>> {
         if let [one] = self.parts.as_slice()
@@ -212,11 +213,11 @@ pub fn analyse(mechanism: &Mechanism, t: f64, q: &[f64]) -> Result<Analysis, Ana
     analyse_known(mechanism, t, q, ConfigurationAccuracy::AsStored)
 }
 
-/// Works like [`analyse`], for a configuration whose accuracy is lower than its storage format.
+/// Works like [`analyse`], for a configuration that is less accurate than its storage format.
 /// `known` states the accuracy. Every value that is zero within this accuracy counts as zero.
 ///
 /// # Errors
-/// Same errors as [`analyse`].
+/// Returns the same errors as [`analyse`].
 pub fn analyse_known(
     mechanism: &Mechanism,
     t: f64,
@@ -226,12 +227,12 @@ pub fn analyse_known(
     analyse_with_progress(mechanism, t, q, known, |_| ())
 }
 
-/// Works like [`analyse_known`], but after each part the function calls `progress` with the number
-/// of joints analysed so far. Parts run on the `rayon` thread pool of the caller; the result does
-/// not depend on the number of threads.
+/// Works like [`analyse_known`], but calls `progress` after each part with the number of joints
+/// analysed so far. Parts run on the `rayon` thread pool of the caller. The result does not depend
+/// on the number of threads.
 ///
 /// # Errors
-/// Same errors as [`analyse`].
+/// Returns the same errors as [`analyse`].
 pub fn analyse_with_progress(
     mechanism: &Mechanism,
     t: f64,
@@ -253,7 +254,7 @@ pub fn analyse_with_progress(
 /// Works like [`analyse_with_progress`], for ranks that have already been decided.
 ///
 /// # Errors
-/// Same errors as [`analyse`].
+/// Returns the same errors as [`analyse`].
 pub fn analyse_decided(
     mechanism: &Mechanism,
     t: f64,
@@ -287,7 +288,7 @@ pub fn analyse_decided(
 /// to be analysed as one. The verdicts do not change.
 ///
 /// # Errors
-/// Same errors as [`analyse`].
+/// Returns the same errors as [`analyse`].
 pub fn analyse_by_cycles(
     mechanism: &Mechanism,
     t: f64,
@@ -300,12 +301,12 @@ pub fn analyse_by_cycles(
     })
 }
 
-/// Works like [`analyse`], but the caller chooses the redundant rows (`dropped`, from 0), which the
-/// dependencies express by the other rows. The verdicts do not depend on this choice.
+/// Works like [`analyse`], but the caller chooses the redundant rows (`dropped`, from 0). The
+/// dependencies express these rows by the other rows. The verdicts do not depend on this choice.
 ///
 /// # Errors
-/// Same errors as [`analyse`], and [`AnalysisError::Rows`]: the motion would change without these
-/// rows.
+/// Returns the same errors as [`analyse`], and [`AnalysisError::Rows`] if the motion would change
+/// without these rows.
 pub fn analyse_dropping(
     mechanism: &Mechanism,
     t: f64,
@@ -338,7 +339,7 @@ pub fn analyse_dropping(
         let s = evaluated(part, t, q);
         let rows = UncertainRows::new(part, t, q, ConfigurationAccuracy::AsStored)?;
         let certified = rows.decide()?;
-        // Within a stated tolerance, the rank may differ from that of the matrix.
+        // Within a stated tolerance, the rank may differ from the rank of the matrix.
         let decision = if part.has_tolerances() {
             rows.dropping(&certified, &own)
         } else {

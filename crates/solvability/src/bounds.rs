@@ -1,19 +1,19 @@
-//! Bounds of reactions that the rigid model does not determine, for joints that give way by any
-//! law in the direction of the load that they carry.
+//! Bounds of reactions that the rigid model does not determine. The joints give way by any law in
+//! the direction of the load that they carry.
 //!
-//! All solutions of the equations are `λ₀ + Z·y`. If every joint X gives way in the direction of
-//! its force (and of its moment) with a compliance c ≥ 0 that may depend on anything, then
-//! `Zᵀ·D·λ = 0` with a diagonal D ≥ 0 for orthonormal components of the wrenches, and by Cramer's
-//! rule and the Cauchy–Binet formula
+//! All solutions of the equations are `λ₀ + Z·y`. Every joint X gives way in the direction of its
+//! force (and of its moment) with a compliance c ≥ 0. The compliance may depend on anything. Then
+//! `Zᵀ·D·λ = 0` with a diagonal D ≥ 0 for orthonormal components of the wrenches. By Cramer's rule
+//! and the Cauchy–Binet formula,
 //!
 //! y = Σ_m c^m·w_m·y_m / Σ_m c^m·w_m, w_m = Σ_{S ∈ m} det²(Z_S),
 //! y_m = Σ_{S ∈ m} det²(Z_S)·y_S / w_m
 //!
-//! where S are sets of p components with det Z_S ≠ 0, y_S is the solution in which the components
-//! of S are zero, and a monomial m collects the sets with equally many components of each force and
-//! of each moment. All weights are positive, so every solution lies in the convex hull of the y_m.
-//! See A. Ben-Tal and M. Teboulle, Linear Algebra Appl. 139 (1990) 165–170, and G. W. Stewart,
-//! Linear Algebra Appl. 112 (1989) 189–193, for one component in each group.
+//! where S are sets of p components with det Z_S ≠ 0, and y_S is the solution in which the
+//! components of S are zero. A monomial m collects the sets with equally many components of each
+//! force and of each moment. All weights are positive, so every solution lies in the convex hull of
+//! the y_m. See A. Ben-Tal and M. Teboulle, Linear Algebra Appl. 139 (1990) 165–170, and G. W.
+//! Stewart, Linear Algebra Appl. 112 (1989) 189–193, for one component in each group.
 
 mod hull;
 mod of_parts;
@@ -47,14 +47,15 @@ pub struct ElasticLoad {
     pub is_moment: bool,
 }
 
-/// The joints and drives that give way.
+/// Assumptions about the joints and drives that give way.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Elasticity {
     /// Joints and drives that do not give way.
     pub rigid: Vec<ConstraintId>,
-    /// A range of the compliances; without it, they are arbitrary.
+    /// A range of the compliances. Without a range, the compliances are arbitrary.
     pub within: Option<ComplianceRange>,
-    /// The points about which moments give way; otherwise the reference points.
+    /// The points about which moments give way. For joints without a point, the reference point is
+    /// used.
     pub centres: Centres,
 }
 
@@ -63,8 +64,8 @@ pub struct Elasticity {
 pub struct ComplianceRange {
     /// The multiple, at least 1.
     pub factor: f64,
-    /// Nominal compliances; the loads of other joints and drives do not give way. Without nominal
-    /// compliances, all loads give way equally.
+    /// Nominal compliances. The loads of joints and drives without a nominal compliance do not give
+    /// way. Without this list, all loads give way equally.
     pub nominal: Option<Vec<NominalCompliance>>,
 }
 
@@ -80,7 +81,8 @@ pub struct NominalCompliance {
 }
 
 impl Elasticity {
-    /// Returns the same statements about the joints and drives of a part, with their numbers there.
+    /// Returns the assumptions about the joints and drives of a part, with the numbers that these
+    /// have in the part.
     fn of_reactions(&self, own: impl Fn(ConstraintId) -> Option<ConstraintId>) -> Self {
         Self {
             rigid: self.rigid.iter().filter_map(|id| own(*id)).collect(),
@@ -103,7 +105,7 @@ impl ComplianceRange {
         }
     }
 
-    /// Returns the nominal compliance of a load; `None` if it does not give way.
+    /// Returns the nominal compliance of a load, or `None` if the load does not give way.
     fn of(&self, reaction: ConstraintId, is_moment: bool) -> Option<f64> {
         let Some(nominal) = &self.nominal else {
             return Some(1.0);
@@ -126,15 +128,16 @@ pub struct ElasticBounds {
     pub lowest: f64,
     /// The largest value (N, N·m).
     pub highest: f64,
-    /// The loads whose joints give way at the smallest value.
+    /// The loads of the joints that give way if the number has its smallest value.
     pub at_lowest: Vec<ElasticLoad>,
-    /// The loads whose joints give way at the largest value.
+    /// The loads of the joints that give way if the number has its largest value.
     pub at_highest: Vec<ElasticLoad>,
-    /// Whether the smallest and the largest value are reached in the limit of some compliances.
-    /// Otherwise the true range may end earlier.
+    /// Whether the smallest and the largest value are reached in the limit of some compliances. If
+    /// a value is not reached, the true range may end earlier.
     pub reached: [bool; 2],
-    /// Whether no compliances give a value outside of the range. Otherwise there are too many sets
-    /// of components to examine all, and some compliances give the smallest and the largest value.
+    /// Whether no compliances give a value outside of the range. If not, there are too many sets of
+    /// components to examine all sets, and some compliances give the smallest and the largest
+    /// value.
     pub complete: bool,
 }
 
@@ -145,10 +148,10 @@ pub enum BoundsError {
     /// The rank is undecided.
     #[error("the rank is undecided")]
     Rank,
-    /// Whether the number is unique is undecided.
+    /// It is undecided whether the number is unique.
     #[error("its verdict is undecided")]
     Verdict,
-    /// Whether a component can be zero is undecided.
+    /// It is undecided whether a component can be zero.
     #[error("for `{reaction}` it is undecided which components may be zero at the same time")]
     Undecided {
         /// The joint or drive.
@@ -172,9 +175,9 @@ pub enum BoundsError {
          units: state nominal compliances"
     )]
     Mixed {
-        /// A joint or drive with a force.
+        /// The joint or drive with the force.
         force: String,
-        /// A joint or drive with a moment.
+        /// The joint or drive with the moment.
         moment: String,
     },
     /// The range of the compliances is not valid.
@@ -186,7 +189,7 @@ pub enum BoundsError {
         whole(ELASTIC_SETS)
     )]
     Many,
-    /// Whether one-sided joints press is not clear.
+    /// It is not clear whether one-sided joints press.
     #[error("a load is so close to the limit of a one-sided joint that its side is undecided")]
     Limits,
     /// One-sided joints open.
@@ -213,13 +216,13 @@ impl From<HullError> for BoundsError {
 /// The solutions of a part for joints that give way by any law.
 pub struct ElasticSolutions<'c, 'm> {
     configuration: &'c Configuration<'m>,
-    /// Whether verdicts state which numbers are unique; otherwise all numbers have a range.
+    /// Whether verdicts state which numbers are unique. Otherwise all numbers have a range.
     is_judged: bool,
     free: FreeMultipliers<'c>,
     lambda_0: Vec<f64>,
     loads: Vec<ElasticLoad>,
     hull: Hull,
-    /// The forces with which one-sided joints press: they are not negative.
+    /// The forces with which one-sided joints press. These forces are not negative.
     presses: Vec<HalfSpace>,
     /// Size of the loads (N).
     size: f64,
@@ -241,10 +244,10 @@ impl<'m> Configuration<'m> {
         self.elastic_solutions_of(lambda_0, elasticity, None)
     }
 
-    /// Returns the solutions of the same mechanism with displaced data, from a solution λ₀ there.
-    /// The self-stresses are those of this configuration, in which the data are as described.
-    /// Displaced data couple all loads a little, and these couplings have no effect. No verdicts
-    /// are used.
+    /// Returns the solutions of the same mechanism with displaced data, from a solution λ₀ of the
+    /// displaced mechanism. The self-stresses are those of this configuration with the data as
+    /// described. Displaced data weakly couple all loads, and these couplings have no effect. No
+    /// verdicts are used.
     ///
     /// # Errors
     /// [`BoundsError`]
@@ -359,8 +362,9 @@ impl<'m> Configuration<'m> {
         })
     }
 
-    /// Returns the components of the force and of the moment of a joint along orthonormal axes,
-    /// those of the joint if it has any, each with whether they are a moment, and the unit.
+    /// Returns the components of the force and of the moment of a joint along orthonormal axes. The
+    /// axes are those of the joint, if it has axes. Each item states whether the components belong
+    /// to a moment, and their unit.
     fn load_forms(
         &self,
         id: ConstraintId,
@@ -413,7 +417,7 @@ fn are_unique(
     Ok(true)
 }
 
-/// Components of a load, with whether they are a moment, and their unit.
+/// Components of a load, with a flag for moments, and the unit of the components.
 type LoadForms = (bool, &'static str, Vec<LinearForm>);
 
 /// Returns ℓᵀ·Z in the coordinates of the free multipliers.
@@ -423,7 +427,7 @@ fn along(form: &LinearForm, free: &FreeMultipliers<'_>) -> Vec<f64> {
 }
 
 impl ElasticSolutions<'_, '_> {
-    /// Returns the bounds of a number; they are equal if the number is unique.
+    /// Returns the bounds of a number. The two bounds are equal if the number is unique.
     ///
     /// # Errors
     /// [`BoundsError::Request`], [`BoundsError::Verdict`]
@@ -457,7 +461,7 @@ impl ElasticSolutions<'_, '_> {
         }
     }
 
-    /// Restricts bounds to loads that press on all one-sided joints.
+    /// Restricts bounds to loads for which all one-sided joints press.
     fn press_on_all(
         &self,
         along: &[f64],
@@ -467,7 +471,7 @@ impl ElasticSolutions<'_, '_> {
         let found = self.hull.ends_within(along, &self.presses, self.size)?;
         let [lowest, highest] = found.ok_or(BoundsError::Opens)?.map(|end| value + end);
         let rounding = CLEAR_SUPPORT * self.size;
-        // With one coordinate, compliances reach every value between two that they reach.
+        // With one coordinate, compliances reach every value between two values that they reach.
         let is_line = self.free.z.ncols() == 1 && bounds.reached == [true; 2];
         if lowest > bounds.lowest + rounding {
             (bounds.lowest, bounds.reached[0]) = (lowest, is_line);
@@ -534,7 +538,7 @@ impl ElasticBounds {
         }
     }
 
-    /// Adds the bounds of a number that depends on other joints.
+    /// Returns the sum of the bounds of two numbers that depend on different joints.
     #[must_use]
     pub fn plus(mut self, other: Self) -> Self {
         self.lowest += other.lowest;

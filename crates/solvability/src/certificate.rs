@@ -1,12 +1,12 @@
 //! Decides the rank of a mechanism with the strongest available evidence. The decision uses
-//! double-double arithmetic at a configuration that is refined in double-double. It assumes data
-//! that are accurate to the rounding with which a scene stores them.
+//! double-double arithmetic at a configuration that is refined in double-double. The decision
+//! assumes that the data are accurate to the rounding with which a scene stores them.
 //!
-//! A simulation does not use this decision. It decides in `f64`, because a nearly redundant
-//! mechanism cannot be integrated in `f64` anyway.
+//! A simulation does not use this decision. A simulation decides in `f64`, because a nearly
+//! redundant mechanism cannot be integrated in `f64` anyway.
 //!
-//! The decision does not move the start. Only rows that are certainly independent are refined, to
-//! distinguish numbers that vanish from small ones.
+//! The decision does not change the start of a simulation. Only rows that are certainly independent
+//! are refined, to distinguish numbers that vanish from small numbers.
 
 use crate::error::AnalysisError;
 use crate::limits::{ASKED, COEFFICIENT_LARGE, ROWS_MAX, SAFELY, TOLERANCE_ROWS};
@@ -31,16 +31,17 @@ pub(crate) struct UncertainRows<'a> {
     scratch: Cow<'a, Scratch>,
     q: Cow<'a, [f64]>,
     size: f64,
-    /// Numbers of the analysed rows in the mechanism, ascending.
+    /// Numbers that the analysed rows have in the mechanism, ascending.
     places: Vec<usize>,
     uncertain: UncertainMatrix,
-    /// C at a configuration refined in double-double. `None` if the refinement is not possible:
-    /// there are too many rows, or the kept rows are dependent to the last digit of `f64`.
+    /// C at a configuration refined in double-double. `None` if the refinement is not possible. The
+    /// refinement is not possible if there are too many rows, or if the kept rows are dependent to
+    /// the last digit of `f64`.
     pub(crate) extended: Option<DdMatrix>,
 }
 
 impl<'a> UncertainRows<'a> {
-    /// Returns C at the configuration of the scratch in `f64`; q are its coordinates.
+    /// Returns C in `f64` at the configuration of the scratch, whose coordinates are q.
     pub(crate) fn in_double(mechanism: &'a Mechanism, s: &'a Scratch, q: &'a [f64]) -> Self {
         Self::at(
             mechanism,
@@ -50,8 +51,8 @@ impl<'a> UncertainRows<'a> {
         )
     }
 
-    /// Returns the dimensionless C of a mechanism of this size and the accuracy of its entries.
-    /// Both are evaluated at the configuration of the scratch, whose coordinates are q.
+    /// Returns the dimensionless C of a mechanism of this size and the accuracy of the entries of
+    /// C. Both are evaluated at the configuration of the scratch, whose coordinates are q.
     pub(crate) fn of_matrix(
         mechanism: &'a Mechanism,
         (s, q, size): (&'a Scratch, &'a [f64], f64),
@@ -65,7 +66,7 @@ impl<'a> UncertainRows<'a> {
         )
     }
 
-    /// Returns C at the configuration of the scratch in `f64`, for coordinates q of the given
+    /// Returns C in `f64` at the configuration of the scratch. The coordinates q have the given
     /// accuracy.
     pub(crate) fn at(
         mechanism: &'a Mechanism,
@@ -151,7 +152,7 @@ impl<'a> UncertainRows<'a> {
         Ok(with_nearness(decision, nearness))
     }
 
-    /// Returns independent rows and evidence for a rank from another source, or `None` if the
+    /// Returns independent rows and evidence for a rank from another source. Returns `None` if the
     /// uncertainty of the data hides this rank. If a tolerance is stated, the rank is decided
     /// again.
     pub(crate) fn of_rank(&self, rank: usize) -> Result<Option<RankDecision>, AnalysisError> {
@@ -183,7 +184,7 @@ impl<'a> UncertainRows<'a> {
         }
     }
 
-    /// Returns a decision on these rows with other redundant rows; rank and evidence do not change.
+    /// Returns a decision on these rows with other redundant rows. Rank and evidence do not change.
     pub(crate) fn dropping(
         &self,
         decision: &RankDecision,
@@ -192,8 +193,9 @@ impl<'a> UncertainRows<'a> {
         rank::with_dropped(decision, &self.matrix(), dropped)
     }
 
-    /// Determines how the accuracy of the data affects the rows of the dependencies: all of these
-    /// rows if a tolerance is stated, otherwise only rows that the entries of C leave undecided.
+    /// Determines how the accuracy of the data affects the rows of the dependencies. If a tolerance
+    /// is stated, all of these rows are examined. Otherwise only rows that the entries of C leave
+    /// undecided are examined.
     fn know_rows(&self, question: &Question<'_>, decision: &mut RankDecision, has_tolerance: bool) {
         let t = decision.equilibrated_dependence();
         let is_open = |row: usize| -> bool {
@@ -252,7 +254,8 @@ impl<'a> UncertainRows<'a> {
 
     /// Returns whether the kept rows are nearly dependent in the scaling of the bodies (rotations
     /// times the arm of the body), at the configuration of the scratch. Equilibration does not show
-    /// this: it may scale the only misaligned entry of a column up to norm one.
+    /// a near dependency, because it may scale the only misaligned entry of a column up to norm
+    /// one.
     pub(crate) fn nearly_redundant(
         &self,
         mechanism: &Mechanism,
@@ -297,14 +300,15 @@ fn with_nearness(mut decision: RankDecision, nearness: Option<Nearness>) -> Rank
 }
 
 /// Returns the combination of kept rows that is closest to zero at the configuration of the
-/// scratch, if its size is below `limit`. Each row is scaled to largest entry 1. `c` is
-/// dimensionless C for a mechanism of this size.
+/// scratch, if the size of the combination is below `limit`. Each row is scaled so that its largest
+/// entry is 1. `c` is the dimensionless C of a mechanism of this size.
 ///
 /// The rotations of a body have two natural units: the arm of the body, and the size of the
-/// mechanism. Each unit can make rows look parallel that are not. The size of the mechanism does so
-/// for rows of a small part of a large mechanism. The arms do so for rows that compare the angles
-/// of bodies of different size, because the larger body then has no influence. Therefore a
-/// combination counts only if both units show it. The weights are computed with the arms.
+/// mechanism. With either unit, rows that are not parallel may look parallel. With the size of the
+/// mechanism, this applies to rows of a small part of a large mechanism. With the arms, it applies
+/// to rows that compare the angles of bodies of different size, because the larger body then has no
+/// influence. Therefore a combination counts only if it is found with both units. The weights are
+/// computed with the arms.
 fn weakest_below(
     limit: f64,
     mechanism: &Mechanism,
@@ -326,7 +330,8 @@ fn weakest_below(
     })
 }
 
-/// Returns the weakest combination of the kept rows of a matrix, each scaled to largest entry 1.
+/// Returns the weakest combination of the kept rows of a matrix. Each row is scaled so that its
+/// largest entry is 1.
 fn weakest_kept(c: &Matrix, decision: &RankDecision) -> Option<WeakestCombination> {
     let mut kept = c.select_rows(&decision.kept);
     for i in 0..kept.nrows() {
@@ -340,9 +345,9 @@ fn weakest_kept(c: &Matrix, decision: &RankDecision) -> Option<WeakestCombinatio
 
 /// Returns the combination of kept rows that cannot be distinguished from a dependency in `f64` at
 /// the configuration of the scratch. Rotations are measured by the arms of the bodies and by the
-/// size of the mechanism. C must have been evaluated at coordinates q. The rank may be decided
-/// nevertheless, because equilibration scales up a column whose only entries are the misalignment.
-/// The misalignment is part of the data as read, but velocities along these rows are accurate only
+/// size of the mechanism. C must have been evaluated at coordinates q. The rank may nevertheless be
+/// decided, because equilibration scales up a column whose only entries are the misalignment. The
+/// misalignment is part of the data as read. However, velocities along these rows are accurate only
 /// to the rounding of the state divided by σ. The function allocates memory.
 #[must_use]
 pub fn inseparable(
@@ -356,10 +361,10 @@ pub fn inseparable(
     weakest_below(NEARLY_SINGULAR, mechanism, s, (size, &c), decision)
 }
 
-/// Returns those of these rows that can be satisfied together at other configurations than q,
-/// ascending. Without a stated tolerance these are all rows. Within a tolerance, some rows may be
-/// redundant although they contradict each other at other configurations, and by their residuals
-/// also at q. Then the kept rows are returned.
+/// Returns the rows that can be satisfied together at configurations other than q, ascending.
+/// Without a stated tolerance these are all given rows. Within a tolerance, some rows may be
+/// redundant although they contradict each other at other configurations. The residuals of these
+/// rows may also contradict each other at q. In this case, the function returns the kept rows.
 pub(crate) fn holding_together(
     mechanism: &Mechanism,
     t: f64,
@@ -379,9 +384,9 @@ pub(crate) fn holding_together(
     }
 }
 
-/// Decides the rank of C at time t and coordinates q, which satisfy the constraints. Uses
-/// double-double if possible (up to 600 rows); the evidence then has a certificate. The function
-/// allocates memory.
+/// Decides the rank of C at time t and coordinates q, which satisfy the constraints. The function
+/// uses double-double if possible (up to 600 rows). The evidence then has a certificate. The
+/// function allocates memory.
 ///
 /// # Errors
 /// - [`AnalysisError::State`]: t or q is not finite, or q has not n_q entries.

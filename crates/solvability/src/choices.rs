@@ -1,6 +1,6 @@
-//! Choices of one of the solutions `λ₀ + Z·y`, if the model does not determine the solution. No
-//! choice gives *the* reaction: every number that is not unique is returned with the name of its
-//! choice and cannot be read without this label.
+//! Choices of one of the solutions `λ₀ + Z·y`, if the model does not determine the solution. A
+//! choice does not give *the* reaction. Every number that is not unique is returned with the name
+//! of its choice and cannot be read without this name.
 
 mod carried;
 mod chosen;
@@ -44,7 +44,7 @@ pub enum Choice {
     MinimumNorm(NormWeights),
     /// The forces that elastic supports with these compliances would carry, in the limit of stiff
     /// supports. The choice minimises the complementary energy
-    /// `½·Σ (Σ along_k·F_k² + rotation·T²) − Σ (d·F + φ·T)`, where T² is the square of the torque
+    /// `½·Σ (Σ along_k·F_k² + rotation·T²) − Σ (d·F + φ·T)`. Here T² is the square of the torque
     /// vector, and d and φ are the misfits. Joints and drives without a compliance are rigid.
     Compliance(ElasticSupports),
     /// Sets the reactions in these rows (from 0) to zero.
@@ -52,8 +52,8 @@ pub enum Choice {
 }
 
 impl Choice {
-    /// Returns the share of a part: the choice with the joints, drives and rows of the part,
-    /// numbered within the part.
+    /// Returns the part of the choice that belongs to a part of the mechanism. The result contains
+    /// the joints, drives and rows of the part, with their numbers in the part.
     #[must_use]
     pub fn share(&self, extent: &Extent) -> Self {
         self.share_of(extent, &self.listed_rows())
@@ -108,7 +108,8 @@ impl NormWeights {
         torque: 1e3,
     };
 
-    /// Returns weights that divide torques by this arm (m), so that they compare with forces.
+    /// Returns weights that divide torques by this arm (m), so that torques can be compared with
+    /// forces.
     #[must_use]
     pub fn with_arm(length: f64) -> Self {
         Self {
@@ -118,14 +119,15 @@ impl NormWeights {
     }
 }
 
-/// Joints and drives that give way, and those that do not fit.
+/// Joints and drives that give way, and joints and drives that do not fit.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct ElasticSupports {
     /// Compliances; other joints and drives are rigid.
     pub compliances: Vec<Compliance>,
     /// Misfits; other joints and drives fit exactly.
     pub misfits: Vec<Misfit>,
-    /// The points about which moments give way; otherwise the reference points.
+    /// The points about which moments give way. For joints without a point, the reference point is
+    /// used.
     pub centres: Centres,
 }
 
@@ -135,7 +137,7 @@ pub struct ElasticSupports {
 pub struct Centres(pub Vec<(ConstraintId, [f64; 3])>);
 
 impl Centres {
-    /// Returns the point of a joint; `None` for the reference point.
+    /// Returns the point of a joint, or `None` if the reference point is used.
     #[must_use]
     pub fn of(&self, id: ConstraintId) -> Option<[f64; 3]> {
         let own = self.0.iter().find(|(known, _)| *known == id);
@@ -183,8 +185,8 @@ impl ElasticSupports {
     }
 }
 
-/// Misfit of a joint or drive without loads: displacement of its second member, or of the ground,
-/// from the position at which the joint fits, in global components.
+/// Misfit of a joint or drive without loads. The misfit is the displacement of the second member of
+/// the joint, or of the ground, from the position at which the joint fits, in global components.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Misfit {
     /// The joint or drive.
@@ -206,7 +208,7 @@ pub struct Compliance {
     pub rotation: f64,
 }
 
-/// One solution, in which each number is marked as unique or as chosen.
+/// A solution in which each number is marked as unique or as chosen.
 #[derive(Clone, Debug)]
 #[non_exhaustive]
 pub struct Distribution {
@@ -248,7 +250,7 @@ impl Distribution {
         self.value_in(&Extent::Whole, configuration, form)
     }
 
-    /// Returns a number of a part, defined by a linear form of its multipliers.
+    /// Returns a number of a part. A linear form of the multipliers of the part defines the number.
     pub(crate) fn value_in(
         &self,
         extent: &Extent,
@@ -261,7 +263,7 @@ impl Distribution {
         if let Some(why) = not_finite(&self.no_finite, extent, form) {
             return Ok(Value::not_finite(verdict, why));
         }
-        // A unique number is computed from λ₀, the most accurate solution, for every choice.
+        // For every choice, a unique number is computed from λ₀, the most accurate solution.
         let value = if verdict.is_unique() {
             configuration.value(form, &extent.of_rows(&self.lambda_0))
         } else {
@@ -288,8 +290,8 @@ impl Distribution {
         self
     }
 
-    /// Assembles one solution of the whole mechanism from those of its parts; `reactions` and
-    /// `rows` are the numbers of joints and rows.
+    /// Assembles one solution of the whole mechanism from the solutions of its parts. `reactions`
+    /// and `rows` are the numbers of joints and of rows.
     pub(crate) fn of_parts(
         label: Label,
         lambda_0: &[f64],
@@ -321,8 +323,8 @@ impl Distribution {
     }
 }
 
-/// If a linear form uses a row whose multiplier is not finite, returns the reason why the form has
-/// no value. The form belongs to the part `extent`.
+/// Returns the reason why a linear form has no value, if the form uses a row whose multiplier is
+/// not finite. The form belongs to the part `extent`.
 pub(crate) fn not_finite(
     no_finite: &[Arc<NoFiniteReaction>],
     extent: &Extent,
@@ -375,7 +377,7 @@ impl Configuration<'_> {
         self.distribute_as(lambda_0, choice, label(self.layout(), choice, &rigid))
     }
 
-    /// Works like [`Self::distribute`], with this label.
+    /// Works like [`Self::distribute`], and gives the distribution this label.
     pub(crate) fn distribute_as(
         &self,
         lambda_0: &[f64],
@@ -422,8 +424,8 @@ impl Configuration<'_> {
         Ok(distribution)
     }
 
-    /// Returns the value of a linear form of the multipliers; zero if it is below their rounding
-    /// error.
+    /// Returns the value of a linear form of the multipliers. The result is zero if the value is
+    /// below the rounding error of the multipliers.
     ///
     /// # Panics
     /// The function panics if the number of multipliers differs from the number of rows.
@@ -489,8 +491,8 @@ impl Configuration<'_> {
         rows_refused(self.layout(), rows, is_unique, source)
     }
 
-    /// Returns joints and drives that share loads with others but are not listed: they count as
-    /// rigid.
+    /// Returns the joints and drives that share loads with other joints but are not listed. These
+    /// joints and drives count as rigid.
     pub(crate) fn rigid(&self, listed: &[Compliance]) -> Vec<ConstraintId> {
         let groups = &self.layout().groups;
         let shares = |id: &ConstraintId| {

@@ -1,4 +1,5 @@
-//! The components of reactions that have verdicts along motions and at several configurations.
+//! The components of reactions for which verdicts are computed along motions and at several
+//! configurations.
 
 use linalg::Matrix;
 use model::reaction::ConstraintGroup;
@@ -9,7 +10,7 @@ use crate::mechanism::component_map;
 use crate::verdict::{Judgement, Verdict};
 
 /// Returns the names of the numbers of a joint or drive for which a simulation computes verdicts.
-/// The numbers are the components that are not identically zero, and the named component of its
+/// The numbers are the components that are not identically zero, and the named component of the
 /// definition, such as `N` or `drive`. [`ConstraintGroup::component_names`] lists named components
 /// only for couplings.
 pub(crate) fn number_names(group: &ConstraintGroup) -> impl Iterator<Item = &'static str> {
@@ -27,7 +28,8 @@ pub(crate) fn all_components(
 }
 
 /// Returns the verdicts on the components of a joint or drive at the configuration of the scratch,
-/// in the order of their names. The rows of the joint or drive have these indices in the basis.
+/// in the order of their names. `rows` are the indices of the rows of the joint or drive in the
+/// basis.
 pub(crate) fn judge_components(
     mechanism: &Mechanism,
     id: ConstraintId,

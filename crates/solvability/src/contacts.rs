@@ -1,18 +1,18 @@
-//! Loads that contacts permit: joints that only push or pull, and contacts that slip if the force
-//! along them is too large.
+//! Loads that contacts permit. The contacts are joints that only push or pull, and contacts that
+//! slip if the force along them is too large.
 //!
 //! All solutions of the equations are `λ₀ + Z·y`. While all contacts stay closed, each one-sided
-//! joint states `N ≥ 0` for the force N with which it presses, and each contact that grips states
-//! `|S| ≤ μ·N` for the force S along it. These conditions are half spaces of y, and the permitted y
-//! form a polyhedron P. The range of a number `ℓᵀ·λ` over P consists of the values of two linear
-//! programs. It is valid for joints of any stiffness, with any misfit, gap and preload, because
-//! every point of P is reached by some gaps. A number that is not unique may have only one
-//! permitted value: it is then unique by the signs of the forces.
+//! joint requires `N ≥ 0` for the force N with which it presses. Each contact with friction
+//! requires `|S| ≤ μ·N` for the force S along it. These conditions are half spaces of y, and the
+//! permitted y form a polyhedron P. The range of a number `ℓᵀ·λ` over P is given by the values of
+//! two linear programs. The range is valid for joints of any stiffness, with any misfit, gap and
+//! preload, because some gaps lead to each point of P. A number that is not unique may have only
+//! one permitted value. Such a number is unique by the signs of the forces.
 //!
 //! P is empty iff weights `w ≥ 0` exist with `Z_Uᵀ·w = 0` and `wᵀ·N < 0`. By the fundamental
-//! theorem of linear algebra, w is then the rates of the gaps of a motion that all other rows
-//! permit, and the loads do work along it: the mechanism tips. See A. Schrijver, Theory of Linear
-//! and Integer Programming, Wiley 1986, section 7.3 (Farkas' lemma).
+//! theorem of linear algebra, w then contains the rates of the gaps of a motion that all other rows
+//! permit. The loads do work along this motion: the mechanism tips. See A. Schrijver, Theory of
+//! Linear and Integer Programming, Wiley 1986, section 7.3 (Farkas' lemma).
 
 mod carried;
 mod conditions;
@@ -45,7 +45,7 @@ pub struct PermittedReactions<'q, 'm> {
     solution: &'q Solution,
     /// Sets of parts whose contacts depend on each other.
     clusters: Vec<Cluster>,
-    /// The cluster of each part; `None` if no contact of the part has a condition.
+    /// The cluster of each part, or `None` if no contact of the part has a condition.
     cluster_of: Vec<Option<usize>>,
 }
 
@@ -53,18 +53,19 @@ pub struct PermittedReactions<'q, 'm> {
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Impossible {
-    /// Conditions with their weights > 0: in every solution, the weighted sum of their margins is
-    /// `sum` < 0. If all of them are one-sided joints, the weights are the relative rates at which
-    /// their gaps open in a motion along which the loads do work.
+    /// Conditions with their weights > 0. In every solution, the weighted sum of the margins of the
+    /// conditions is `sum` < 0. If all contacts are one-sided joints, the weights are the relative
+    /// rates at which their gaps open in a motion along which the loads do work.
     pub weights: Vec<(ContactCondition, f64)>,
     /// The weighted sum of the margins (N), for weights whose sum is 1.
     pub sum: f64,
-    /// All other one-sided joints on the bodies of these joints; they stay closed.
+    /// All other one-sided joints on the bodies of these joints. These joints stay closed.
     pub closed: Vec<ConstraintId>,
 }
 
 impl Impossible {
-    /// Returns whether only one-sided joints take part, so that the weights are those of a motion.
+    /// Returns whether all contacts are one-sided joints. In this case, the weights are those of a
+    /// motion.
     #[must_use]
     pub fn is_opening(&self) -> bool {
         let mut kinds = self.weights.iter().map(|(c, _)| c.kind);
@@ -73,7 +74,7 @@ impl Impossible {
 }
 
 impl<'m> Questions<'m> {
-    /// Returns the loads that the contacts permit, from one solution; `None` if no joint is
+    /// Returns the loads that the contacts permit, from one solution. Returns `None` if no joint is
     /// one-sided or can slip.
     ///
     /// # Errors
@@ -118,16 +119,16 @@ impl<'m> Questions<'m> {
 }
 
 impl PermittedReactions<'_, '_> {
-    /// Returns the contacts that cannot all stay closed, or cannot all hold; empty if some sharing
-    /// of the loads is permitted. If the one-sided joints cannot all stay closed, no contact that
-    /// grips takes part.
+    /// Returns the contacts that cannot all stay closed, or cannot all prevent slip. The list is
+    /// empty if some distribution of the loads is permitted. If the one-sided joints cannot all
+    /// stay closed, the list contains no contact with friction.
     ///
     /// # Errors
     /// [`PermittedError::Unclear`]
     pub fn impossible(&self) -> Result<Vec<Impossible>, PermittedError> {
         let mut all = Vec::new();
         for cluster in &self.clusters {
-            // The conditions of the one-sided joints are the first ones.
+            // The conditions of the one-sided joints come first.
             let pressed = cluster.of_presses();
             let of = match pressed.emptiness()? {
                 Emptiness::Empty { .. } => &pressed,
@@ -147,7 +148,8 @@ impl PermittedReactions<'_, '_> {
         Ok(all)
     }
 
-    /// Returns the one-sided joints without a weight on the bodies of the joints with one.
+    /// Returns the one-sided joints without a weight that are on the bodies of the joints with a
+    /// weight.
     fn closed(&self, weights: &[(ContactCondition, f64)]) -> Vec<ConstraintId> {
         let layout = self.questions.mechanism().layout();
         let moving = |id: ConstraintId| {
@@ -166,8 +168,9 @@ impl PermittedReactions<'_, '_> {
             .collect()
     }
 
-    /// Returns the depth of the permitted loads: the largest value of the smallest margin over all
-    /// solutions (N), negative if no sharing is permitted; `None` if it has no limit.
+    /// Returns the depth of the permitted loads (N). The depth is the largest value that the
+    /// smallest margin has over all solutions. The depth is negative if no distribution is
+    /// permitted, and `None` if it has no limit.
     ///
     /// # Errors
     /// [`PermittedError::Unclear`]

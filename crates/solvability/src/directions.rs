@@ -3,13 +3,13 @@
 use crate::limits::{SHARE_OF_PIVOT, VISIBLE};
 use model::space::norm;
 
-/// Returns a basis of the same space in which every component that lies in the space by itself is a
-/// separate basis vector. The basis consists of reduced rows, as unit vectors whose largest entry
+/// Returns a readable basis of the same space. Every component that lies in the space by itself is
+/// a separate basis vector. The basis consists of reduced rows, as unit vectors whose largest entry
 /// is positive. The elimination uses the first components with sufficiently large entries.
 pub(crate) fn readable(mut directions: Vec<Vec<f64>>) -> Vec<Vec<f64>> {
     let components = directions.first().map_or(0, Vec::len);
     for done in 0..directions.len() {
-        // Returns the largest entry of a component, with its row.
+        // Returns the largest entry of a component, and the row of this entry.
         let largest = |c: usize| {
             let sizes = directions[done..]
                 .iter()

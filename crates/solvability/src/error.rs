@@ -23,7 +23,7 @@ pub enum AnalysisError {
         /// Cause.
         source: RankError,
     },
-    /// Too many joints share cycles for the rank of their rows to be decided.
+    /// Too many joints share cycles, so the rank of their rows cannot be decided.
     #[error("at t = {time} s: {rows} rows share cycles: {source}")]
     Large {
         /// Time (s).
@@ -33,7 +33,7 @@ pub enum AnalysisError {
         /// Cause.
         source: rank::SparseRankError,
     },
-    /// The redundant rows can be chosen only in a part with fewer rows.
+    /// The caller cannot choose the redundant rows of a part with so many rows.
     #[error(
         "at t = {time} s: the rows that are dropped cannot be chosen where {rows} rows share cycles; up to {max} rows they can, and elsewhere in \
          this mechanism",

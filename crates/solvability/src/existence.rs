@@ -1,11 +1,11 @@
-//! Tests whether reactions exist, before their uniqueness: redundant rows must be consistent. For
-//! each circuit `Σ z_i·row_i = 0`, the right-hand sides must satisfy the same sum. If
-//! `Σ z_i·b_i ≠ 0`, no velocity exists; if `Σ z_i·Γ_i ≠ 0`, no acceleration exists. At position
-//! level the residuals of Φ replace the right-hand sides. Their sum over a circuit is not zero if a
-//! row is redundant only at another configuration.
+//! Tests whether reactions exist. This test precedes the test of uniqueness. Redundant rows must be
+//! consistent. For each circuit `Σ z_i·row_i = 0`, the right-hand sides must satisfy the same sum.
+//! If `Σ z_i·b_i ≠ 0`, no velocity exists; if `Σ z_i·Γ_i ≠ 0`, no acceleration exists. At position
+//! level the residuals of Φ replace the right-hand sides. The sum of the residuals over a circuit
+//! is not zero if a row is redundant only at another configuration.
 //!
-//! This module does not decide ranks; it uses the circuits of decided ranks. A contradiction names
-//! its drives, together with the motion that each drive prescribes.
+//! This module does not decide ranks; it uses the circuits of decided ranks. The error of a
+//! contradiction contains its drives, and the motion that each drive prescribes.
 
 mod demands;
 mod drives;
@@ -37,8 +37,8 @@ pub struct Contradiction {
     pub rows: Vec<RowLabel>,
     /// Position, velocity or acceleration.
     pub level: ConstraintLevel,
-    /// Change of one row that would remove the contradiction: of the last row that depends on time,
-    /// or otherwise of the last row. At position level it is accurate to first order.
+    /// Change of one row that would remove the contradiction. The row is the last row that depends
+    /// on time, or otherwise the last row. At position level the change is accurate to first order.
     pub size: f64,
     /// Unit of `size`.
     pub unit: &'static str,
@@ -46,12 +46,12 @@ pub struct Contradiction {
     pub tolerance: f64,
     /// Number of joints and drives with functions of time among the rows.
     pub drives: usize,
-    /// The motions that the drives among the rows prescribe, in the order of their rows. For a
-    /// contradiction of accelerations without a drive, these are the motions prescribed by the
-    /// drives that determine the velocities of the bodies.
+    /// The motions that the drives among the rows prescribe, in the order of the rows. A
+    /// contradiction of accelerations may contain no drive. In this case, the list contains the
+    /// motions prescribed by the drives that determine the velocities of the bodies.
     pub demands: Vec<Demand>,
-    /// Whether these drives are not among the rows, but prescribe velocities that the rows cannot
-    /// follow.
+    /// Whether these drives are not among the rows, but prescribe velocities with which the rows
+    /// cannot be satisfied.
     pub is_forced: bool,
 }
 
@@ -62,14 +62,14 @@ impl Contradiction {
         !self.demands.is_empty()
     }
 
-    /// Splits the rows into those of drives and those of joints.
+    /// Splits the rows into rows of drives and rows of joints.
     #[must_use]
     pub fn split_rows(&self) -> (Vec<&RowLabel>, Vec<&RowLabel>) {
         let is_drive = |row: &&RowLabel| self.demands.iter().any(|d| d.drive == row.joint);
         self.rows.iter().partition(is_drive)
     }
 
-    /// Returns the names of the drives that force the contradicting rows; the list is empty if the
+    /// Returns the names of the drives that force the contradicting rows. The list is empty if the
     /// drives are among the rows.
     #[must_use]
     pub fn forcing(&self) -> Vec<&str> {
@@ -178,14 +178,14 @@ pub struct Ranks<'a> {
 }
 
 /// Returns the contradictions between redundant rows at time t, coordinates q and velocities v at
-/// all three levels, the largest excess over the tolerance first. The independent rows K must be
-/// satisfied: `Φ_K = 0` and `C_K·v = b_K` to rounding.
+/// all three levels. The contradiction with the largest excess over the tolerance comes first. The
+/// independent rows K must be satisfied: `Φ_K = 0` and `C_K·v = b_K` to rounding.
 ///
 /// The sum over a circuit is compared with the size of the terms that are added in its rows
 /// ([`model::Scales::terms`]), times the noise of the coefficients, [`rank::support_tolerance`].
 /// Near a singular configuration, the coefficients that express redundant rows by independent rows
-/// have errors of 1/σ_r rounding errors, and the agreement cannot be better. Only rows that are
-/// coupled with those of the circuit count, so that large terms elsewhere do not hide a
+/// have errors of 1/σ_r rounding errors, so the rows cannot agree better. Only rows that are
+/// coupled with the rows of the circuit count. Therefore large terms in other rows do not hide a
 /// contradiction.
 ///
 /// # Errors
@@ -219,8 +219,8 @@ pub fn contradictions(
         };
         comparison.contradictions(mechanism, t)
     };
-    // Rows that are redundant within a tolerance may become inconsistent; their residuals then
-    // decide.
+    // Rows that are redundant within a tolerance may become inconsistent. The residuals of these
+    // rows then determine whether the rows contradict each other.
     let mut found = [
         compared(Level::positions(), ranks.holonomic, &s.phi),
         compared(Level::velocities(mechanism, size, v), ranks.all, &s.b),
@@ -237,9 +237,9 @@ pub fn contradictions(
 }
 
 /// Returns whether redundant rows may require accelerations that differ from those of the rows that
-/// imply them, and may therefore be violated later. If a tolerance is stated, rows may be redundant
-/// only within it. A motion on the independent rows then exists with its reactions, until the
-/// violation of a row exceeds what data within the tolerance explain.
+/// imply them. Such rows may be violated later. If a tolerance is stated, rows may be redundant
+/// only within this tolerance. The independent rows then have a motion and reactions, until the
+/// violation of a row exceeds the violation that data within the tolerance can cause.
 #[must_use]
 pub fn may_miss(mechanism: &Mechanism) -> bool {
     mechanism.has_tolerances()
@@ -277,7 +277,7 @@ impl LevelValues<'_> {
         let rows = rank::components(self.decision);
         let noise = rank::support_tolerance(self.decision);
         let term = |&i: &usize| self.decision.scaling.row_factor(i) * (self.scale)(i);
-        // Rows without a dependency: the remainder of their coefficients is rounding.
+        // For rows without a dependency, the remaining coefficients are rounding.
         let left = self.decision.equilibrated_dependence();
         let coefficient = |i: &usize| {
             let k = self.decision.kept.binary_search(i).ok();
@@ -291,8 +291,8 @@ impl LevelValues<'_> {
             .iter()
             .filter_map(|circuit| {
                 let first = circuit.rows.first()?;
-                // Coefficients of rows that are coupled with these may have an error of this size,
-                // including those that count as zero.
+                // Coefficients of rows that are coupled with these rows may have an error of this
+                // size. This also applies to coefficients that count as zero.
                 let component = rows.coupled.iter().find(|rows| rows.contains(first))?;
                 let terms: f64 = component.iter().map(term).sum();
                 self.contradiction(mechanism, time, circuit, noise * terms + aside)
@@ -357,7 +357,7 @@ impl LevelValues<'_> {
         })
     }
 
-    /// Returns how much data within a stated tolerance change the sum over a circuit; zero if no
+    /// Returns how much data within a stated tolerance change the sum over a circuit, or zero if no
     /// tolerance is stated.
     fn within_data(&self, mechanism: &Mechanism, circuit: &Circuit) -> f64 {
         if !mechanism.has_tolerances() {
@@ -372,9 +372,9 @@ impl LevelValues<'_> {
         data.explained(s, &data.blocks(s), &weights, &self.level, &mut gradient)
     }
 
-    /// Returns the drives (numbers of groups) that move the bodies of these rows and, together with
-    /// the joints, determine their velocities. The set is empty if the bodies have other possible
-    /// velocities with which the rows might remain satisfied.
+    /// Returns the drives (numbers of groups) that move the bodies of these rows. Together with the
+    /// joints, these drives determine the velocities of the bodies. The set is empty if the bodies
+    /// have other possible velocities with which the rows might remain satisfied.
     fn forcing(&self, mechanism: &Mechanism, rows: &[usize]) -> BTreeSet<usize> {
         let layout = mechanism.layout();
         let group = |row: usize| layout.owners[row].0;

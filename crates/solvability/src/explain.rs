@@ -1,6 +1,6 @@
 //! Explains why reactions are not unique, as text and as directions that can be drawn. The
-//! explanation names joints that share loads, loads between joints that do not affect the motion,
-//! and the part of a reaction that is determined nevertheless.
+//! explanation contains the joints that share loads, the loads between joints that do not affect
+//! the motion, and the part of a reaction that is nevertheless determined.
 //!
 //! Every statement about a sum or a component is tested against all dependencies.
 
@@ -33,7 +33,7 @@ pub struct Explanation {
     pub mixing: Vec<Mixing>,
     /// The reactions that are not unique, in the order of their rows.
     pub reactions: Vec<ReactionExplanation>,
-    /// Joints and drives whose reactions are unique because of the structure alone, with the
+    /// Joints and drives whose reactions are unique because of the structure alone, each with the
     /// reason.
     pub settled: Vec<(ConstraintId, StructureVerdict)>,
 }
@@ -50,8 +50,8 @@ pub struct SelfStress {
     /// The largest coefficient (for scaled rows) that counts as zero only within the tolerance of
     /// the scene; zero if there is no such coefficient.
     pub left_out: f64,
-    /// Load on each joint, in the order of rows. The largest force is 1 N, or the largest torque is
-    /// 1 N·m if there is no force.
+    /// Load on each joint, in the order of rows. The largest force is 1 N. If there is no force,
+    /// the largest torque is 1 N·m.
     pub directions: Vec<FreeDirection>,
     /// Explanation as text.
     pub text: String,
@@ -64,7 +64,7 @@ pub struct SelfStress {
 pub struct FreeDirection {
     /// The joint or drive.
     pub joint: ConstraintId,
-    /// Bodies of the joint or drive; the force acts on the first one.
+    /// Bodies of the joint or drive. The force acts on the first body.
     pub bodies: Vec<BodyRef>,
     /// The space of the mechanism.
     pub space: SpaceKind,
@@ -101,8 +101,8 @@ pub struct Mixing {
 pub struct ReactionExplanation {
     /// The joint or drive.
     pub id: ConstraintId,
-    /// Text that names the joints with which it shares loads, and the determined part of the
-    /// reaction.
+    /// Text with the joints that share loads with this joint or drive, and with the determined part
+    /// of the reaction.
     pub text: String,
 }
 
@@ -113,7 +113,7 @@ pub enum ExplanationError {
     /// The constraint matrix cannot be analysed.
     #[error(transparent)]
     Rank(#[from] rank::RankError),
-    /// The rank is undecided, so every sentence would depend on one of two possible ranks.
+    /// The rank is undecided. Every sentence would depend on one of two possible ranks.
     #[error("explanations need a decided rank: {0}")]
     Undecided(rank::Doubt),
     /// The solvability was computed from another constraint matrix.
@@ -134,7 +134,7 @@ impl ExplanationError {
 }
 
 impl Explanation {
-    /// Converts the numbers of a part to those of the whole mechanism.
+    /// Converts the numbers of a part to the numbers of the whole mechanism.
     pub(crate) fn renumber(
         &mut self,
         row: impl Fn(usize) -> usize,
@@ -199,7 +199,7 @@ pub fn explain(
         .filter(|circuit| is_known(&circuit.rows))
         .map(|circuit| stress(mechanism, s, q, solvability, circuit))
         .collect();
-    // A reaction that is unique because of the structure for exact data may be undecided within a
+    // A reaction that is unique for exact data because of the structure may be undecided within a
     // tolerance.
     let is_unique = |id: &ConstraintId| {
         let rows = mechanism.layout().groups[id.0].rows.clone();
@@ -219,8 +219,8 @@ pub fn explain(
     })
 }
 
-/// Returns the components of coupled rows. In space, components of the same joints are merged:
-/// their separate rows are parts of the same loads.
+/// Returns the components of coupled rows. In space, components of the same joints are merged,
+/// because their separate rows are parts of the same loads.
 fn mixing(mechanism: &Mechanism, s: &Scratch, q: &[f64], solvability: &Solvability) -> Vec<Mixing> {
     let layout = mechanism.layout();
     let decision = solvability.decision();
@@ -292,14 +292,15 @@ fn mixing(mechanism: &Mechanism, s: &Scratch, q: &[f64], solvability: &Solvabili
     coupled.into_iter().map(of).collect()
 }
 
-/// Returns the components of the total wrench of these reactions that are unique although a
-/// reaction's own is not, as "Fx, Fz and T about (1, 2)"; forces are those on the first bodies.
+/// Returns the components of the total wrench of these reactions that are unique although the
+/// wrench of a single reaction is not unique. The text has the form "Fx, Fz and T about (1, 2)".
+/// Forces are forces on the first bodies.
 fn determined_sums(
     forms: &ReactionForms<'_>,
     solvability: &Solvability,
     reactions: &[ConstraintId],
 ) -> Vec<String> {
-    // A sum of loads on different bodies has no meaning.
+    // A sum of loads on different bodies is not meaningful.
     let groups = &forms.mechanism.layout().groups;
     let mut on_body = reactions.iter().map(|id| groups[id.0].bodies.first());
     let first = on_body.next();
@@ -339,8 +340,8 @@ fn determined_sums(
     names
 }
 
-/// Returns multipliers of these rows without resultant load on any body, one solution in each
-/// column; they are zero in all other rows.
+/// Returns multipliers of these rows without a resultant load on any body. Each column contains one
+/// solution. The multipliers of all other rows are zero.
 fn spanning(solvability: &Solvability, rows: &[usize]) -> linalg::Matrix {
     let (z, scaling) = (solvability.null_space(), &solvability.decision().scaling);
     let mut own = linalg::Matrix::zeros(z.nrows(), z.ncols());
@@ -410,8 +411,8 @@ fn reaction(
     let told = directions.map(|each| {
         each.map(|directions| -> Vec<String> { directions.iter().map(combination).collect() })
     });
-    // A component that does not occur in any load of the joint is unique, and does not describe the
-    // loads.
+    // A component that does not occur in any load of the joint is unique. Such a component does not
+    // describe the loads.
     let determined = match &told {
         None => "the determined part of it is undecided".to_owned(),
         Some([live, unique]) => match (&live[..], &unique[..]) {
@@ -492,9 +493,9 @@ fn stress(
     }
 }
 
-/// Scales the loads to largest force 1. If all forces are rounding relative to the torques divided
-/// by the size, the loads are scaled to largest torque 1. The first number is positive. Rounding is
-/// set to zero.
+/// Scales the loads so that the largest force is 1. If all forces are rounding relative to the
+/// torques divided by the size, the loads are scaled so that the largest torque is 1. The first
+/// number is positive. Rounding is set to zero.
 fn normalise(layout: &Layout, directions: &mut [FreeDirection], size: f64) {
     let force = |d: &FreeDirection| norm(&d.force);
     let force = directions.iter().map(force).fold(0.0, f64::max);

@@ -1,17 +1,17 @@
 //! Decides whether finite reactions exist.
 //!
-//! `M·a + Cᵀ·λ = Q` and `C·a = Γ` are equations of first order: a is the acceleration that the
-//! loads cause along the velocities with `C·v = 0`. From rest, a motion begins as
-//! `q(t) = q + ½·a·t² + …`, so its acceleration satisfies the equations of second order,
-//! `z·Γ(a) = 0` for every z of the left null space. If the acceleration above does not, no motion
-//! has these reactions: two bars in line between two pins cannot sag, and no finite force holds a
-//! load across them. Pins that are slightly out of line carry the load with forces that grow
-//! without bound as the sag vanishes.
+//! `M·a + Cᵀ·λ = Q` and `C·a = Γ` are equations of first order. Here a is the acceleration that the
+//! loads cause along the velocities with `C·v = 0`. From rest, a motion begins as `q(t) = q +
+//! ½·a·t² + …`, so its acceleration satisfies the equations of second order, `z·Γ(a) = 0` for every
+//! z of the left null space. If the acceleration a does not satisfy these equations, no motion has
+//! these reactions. For example, two bars in line between two pins cannot sag, and no finite force
+//! supports a load across them. If the pins are slightly out of line, the bars support the load
+//! with forces that grow without bound as the sag vanishes.
 //!
-//! The result concerns all joints of a set of connected bodies, because the acceleration of each of
-//! these bodies is wrong. For bodies that move, or that functions of time move, the equations of
-//! second order contain further terms. The result for such bodies is undecided wherever a freedom
-//! is restricted.
+//! The result applies to all joints of a set of connected bodies, because the acceleration of each
+//! of these bodies is wrong. For moving bodies, and for bodies moved by functions of time, the
+//! equations of second order contain further terms. The result for such bodies is undecided if a
+//! freedom is restricted.
 
 use model::{ConstraintId, Mechanism, System};
 use rank::RankDecision;
@@ -86,7 +86,8 @@ impl<'a> Instant<'a> {
         }
     }
 
-    /// Returns the report on the reactions of a set of bodies; `None` if the reactions are finite.
+    /// Returns the report on the reactions of a set of bodies, or `None` if the reactions are
+    /// finite.
     fn set(&self, set: &RestrictedVelocities) -> Result<Option<NoFiniteReaction>, StateError> {
         let groups = self.groups(set);
         let prescribed = groups
@@ -153,8 +154,8 @@ impl<'a> Instant<'a> {
         own > PUSHES * (self.load_terms(w) + self.inertia_terms(w)) + self.rounding(w)
     }
 
-    /// Returns the power along w that is rounding of loads of this size. If w itself is rounding,
-    /// the terms of its power are rounding, too.
+    /// Returns the largest power along w that is rounding of loads of this size. If w itself is
+    /// rounding, the terms of the power are rounding, too.
     fn rounding(&self, w: &[f64]) -> f64 {
         let mass = self.mechanism.mass();
         let of_column = |j: usize| {

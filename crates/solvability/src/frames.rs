@@ -1,7 +1,7 @@
-//! Components of reactions in the frames that engineers use: global axes, axes of the first body,
-//! and axes along and across an edge. Components that are coupled in one frame may be independent
-//! in another. For example, the bearing force of a crank has a unique component across the crank,
-//! even if no global component is unique.
+//! Components of reactions in the frames that engineers use. The frames are global axes, axes of
+//! the first body, and axes along and across an edge. Components that are coupled in one frame may
+//! be independent in another frame. For example, the bearing force of a crank has a unique
+//! component across the crank, even if no global component is unique.
 
 use model::{Axes, ConstraintId, Frame, Mechanism};
 use rank::RankDecision;
@@ -19,12 +19,12 @@ pub struct FrameVerdict {
     /// Unit vectors of the axes of the frame, in global components.
     pub axes: Axes,
     /// Verdicts on the components along the axes, and on the torque about the reference point of
-    /// the joint. The names are those of [`model::SpaceKind::components_in`]. A component that is
+    /// the joint. The names are listed by [`model::SpaceKind::components_in`]. A component that is
     /// identically zero is unique.
     pub components: Vec<ComponentVerdict>,
 }
 
-/// The components of a reaction in one frame, as numbers linear in the multipliers.
+/// The components of a reaction in one frame, as linear forms of the multipliers.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FrameForms {
     /// Unit vectors of the axes, in global components.
@@ -62,7 +62,7 @@ pub struct FrameForms {
 /// ```
 ///
 /// # Errors
-/// Same errors as [`Configuration::new`], and [`RequestError::UnknownReaction`].
+/// Returns the same errors as [`Configuration::new`], and [`RequestError::UnknownReaction`].
 pub fn judge_frames(
     mechanism: &Mechanism,
     t: f64,

@@ -1,14 +1,14 @@
-//! Degrees of freedom: rank, redundancy and mobility of the rows without drives. The free motions
-//! are described as text and as velocity components.
+//! Degrees of freedom. This module determines rank, redundancy and mobility of the rows without
+//! drives, and describes the free motions as text and as velocity components.
 //!
-//! A drive adds to the rank like any other row: with its drive, a four-bar has mobility 0, like a
+//! A drive adds to the rank like any other row. With its drive, a four-bar has mobility 0, like a
 //! truss. Without drives, the two mechanisms differ, and the remaining motions show the difference.
-//! The ranks come from [`crate::analyse`]; this module decides no rank. Free motions are of first
-//! order at one configuration: velocities v with `C·v = 0`.
+//! The ranks come from [`crate::analyse`]; this module does not decide ranks. Free motions are
+//! motions of first order at one configuration: velocities v with `C·v = 0`.
 //!
 //! The basis of these velocities is not unique. Bodies that no joint connects move separately. For
-//! connected bodies, each motion moves as few joints as a search finds, and then as few bodies. A
-//! body without joints is reported as free.
+//! connected bodies, a search finds motions that move as few joints as possible, and then as few
+//! bodies as possible. A body without joints is reported as free.
 
 mod basis;
 mod component;
@@ -41,20 +41,21 @@ pub struct Freedoms {
     pub mobility: usize,
     /// Motions that are possible while the drives are locked.
     pub motions: FreeMotions,
-    /// A basis of the motions that second order excludes, as far as this is decided. Such a motion
-    /// is free only at first order, and no finite motion has its velocity.
+    /// A basis of the motions that are excluded at second order, as far as this is decided. Such a
+    /// motion is free only at first order, and no finite motion has its velocity.
     pub blocked: Vec<FreeMotion>,
-    /// A basis of the motions for which second order neither excludes nor proves a finite motion.
+    /// A basis of the motions for which the second order neither excludes nor proves a finite
+    /// motion.
     pub undecided: Vec<FreeMotion>,
     /// The possible motions if the drives are removed. `None` if there are no drives.
     pub without_drives: Option<FreedomsWithoutDrives>,
-    /// Whether no motion is possible. This is true if no velocity is free without the drives, or if
-    /// second order excludes every velocity that is free without the drives. It is also true if
-    /// second order excludes every free velocity while the drives do not move. `None` if this is
-    /// not decided.
+    /// Whether no motion is possible. No motion is possible in three cases: no velocity is free
+    /// without the drives, the second order excludes every velocity that is free without the
+    /// drives, or the second order excludes every free velocity while the drives do not move.
+    /// `None` if this is not decided.
     pub cannot_move: Option<bool>,
-    /// Joints with nonholonomic rows, such as wheels, if these rows prevent every motion: without
-    /// them a velocity would be free.
+    /// Joints with nonholonomic rows, such as wheels, if these rows prevent every motion. Without
+    /// these rows a velocity would be free.
     pub prevented_by: Vec<ConstraintId>,
 }
 
@@ -73,7 +74,8 @@ pub struct FreedomsWithoutDrives {
     pub motions: FreeMotions,
 }
 
-/// Describes velocities (n_v values each) that the rows at q allow, as motions that span them.
+/// Describes velocities (n_v values each) that the rows at q allow. The description is a list of
+/// motions that span the velocities.
 ///
 /// # Errors
 /// The function returns an error if q is not a configuration of this mechanism.
@@ -119,7 +121,7 @@ impl Analysis {
         Ok(found)
     }
 
-    /// Adds the second-order results on the free motions; returns whether no free motion remains.
+    /// Adds the second-order results on the free motions. Returns whether no free motion remains.
     fn restrict(
         &self,
         found: &mut Freedoms,
@@ -144,8 +146,8 @@ impl Analysis {
     }
 }
 
-/// Returns whether second order excludes every velocity of the mechanism without its drives, which
-/// prevent these velocities at first order.
+/// Returns whether the second order excludes every velocity of the mechanism without its drives.
+/// The drives prevent these velocities at first order.
 fn blocked_without_drives(
     mechanism: &Mechanism,
     t: f64,

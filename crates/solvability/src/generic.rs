@@ -1,11 +1,12 @@
 //! Decides whether a redundancy is permanent or present at this configuration only. The rank is
 //! constant on each connected component of the configuration set except on a nowhere dense part of
-//! it. Therefore the ranks at a few other points of the same component decide.
+//! the component. Therefore the ranks at a few other points of the same component are sufficient.
 //!
 //! Other points are reached by steps along the free directions of the constraints. The steps
-//! exclude directions that second order blocks, because another branch may be near, and its rank
-//! does not describe this branch. Drives are omitted, because their prescribed values change with
-//! time. If other constraints depend on time, time changes as well.
+//! exclude directions that are blocked at second order. In such a direction another branch may be
+//! near, and the rank of the other branch does not describe this branch. Drives are omitted,
+//! because their prescribed values change with time. If other constraints depend on time, time
+//! changes as well.
 
 mod leaving;
 mod walker;
@@ -28,8 +29,8 @@ use walker::{LastingRows, Walker, has_lasting_function};
 /// Redundancy at other configurations of the same component.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Generic {
-    /// The smallest redundancy of the compared configurations, which is the redundancy at almost
-    /// all configurations.
+    /// The smallest redundancy of the compared configurations. Almost all configurations have this
+    /// redundancy.
     pub redundancy: usize,
     /// The configurations that were compared.
     pub points: Vec<OtherConfiguration>,
@@ -57,16 +58,16 @@ pub struct OtherConfiguration {
 pub struct GenericVerdict {
     /// The joint or drive.
     pub id: ConstraintId,
-    /// The verdict on all its components together.
+    /// The verdict on all components together.
     pub whole: Verdict,
-    /// The verdicts on its components that are not identically zero, and on the named component of
-    /// its definition, with their names.
+    /// The verdicts on the components that are not identically zero, and on the named component of
+    /// the definition, with their names.
     pub components: Vec<(&'static str, Verdict)>,
 }
 
 impl GenericVerdict {
-    /// Returns the verdict on a component, by its name; `None` for a component that is zero under
-    /// any load.
+    /// Returns the verdict on the component with this name, or `None` for a component that is zero
+    /// under any load.
     #[must_use]
     pub fn component(&self, name: &str) -> Option<&Verdict> {
         let mut own = self.components.iter();
@@ -83,9 +84,9 @@ pub fn generic(mechanism: &Mechanism, t: f64, q: &[f64]) -> Option<Generic> {
     Some(Comparison::of(mechanism, t, q)?.found)
 }
 
-/// Works like [`generic`], with the verdicts on all joints and drives. The result contains the
-/// worst verdicts at the configurations with the smallest redundancy, or `None` if the verdicts
-/// there are not known.
+/// Works like [`generic`], and also returns the verdicts on all joints and drives. The result
+/// contains the worst verdicts at the configurations with the smallest redundancy, or `None` if the
+/// verdicts at these configurations are not known.
 #[must_use]
 pub fn generic_with_verdicts(
     mechanism: &Mechanism,
@@ -185,10 +186,10 @@ impl Comparison {
         Some(mechanism.layout().constraint_ids().map(of).collect())
     }
 
-    /// Returns the verdicts on all components at one of these configurations. At the other
-    /// configurations, rows that were not compared are redundant within a stated tolerance. If the
-    /// decision on all rows does not find them redundant, its rank differs, and the verdicts are
-    /// not known.
+    /// Returns the verdicts on all components at one of these configurations. At this
+    /// configuration, rows that were not compared are redundant within a stated tolerance. If the
+    /// decision on all rows does not find these rows redundant, the rank of this decision differs,
+    /// and the verdicts are not known.
     fn verdicts_at(
         &self,
         mechanism: &Mechanism,
@@ -210,7 +211,7 @@ impl Comparison {
 }
 
 /// Returns whether the degree of redundancy is the same at other configurations. Returns `None` if
-/// [`generic`] does, or if the rank at this configuration is undecided.
+/// [`generic`] returns `None`, or if the rank at this configuration is undecided.
 #[must_use]
 pub fn is_permanent(
     mechanism: &Mechanism,
@@ -222,9 +223,9 @@ pub fn is_permanent(
     Some(found.redundancy == decision.redundancy)
 }
 
-/// Returns the rows whose rank is compared: the independent rows at (t, q), and those redundant
-/// rows that are dependent to rounding. The other rows are redundant within a stated tolerance, and
-/// this was found at several configurations.
+/// Returns the rows whose rank is compared. The rows are the independent rows at (t, q), and the
+/// redundant rows that are dependent to rounding. The other rows are redundant within a stated
+/// tolerance, and this was found at several configurations.
 fn compared_rows(mechanism: &Mechanism, t: f64, q: &[f64]) -> Option<Vec<usize>> {
     let all = (0..mechanism.layout().rows()).collect();
     if !mechanism.has_tolerances() {

@@ -1,6 +1,6 @@
-//! Verdicts on groups that the user defines: several reactions, one number computed from their
-//! components, a sum of wrenches, or all loads on a set of bodies. The user decides the purpose of
-//! a group, so each kind defines its own verdict.
+//! Verdicts on groups that the user defines. A group is a set of several reactions, one number
+//! computed from their components, a sum of wrenches, or all loads on a set of bodies. The user
+//! decides the purpose of a group, so each kind of group has its own verdict.
 
 mod configuration;
 mod error;
@@ -29,8 +29,8 @@ use crate::verdict::{Judgement, worst};
 #[non_exhaustive]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct GroupVerdict {
-    /// Verdict on the whole group. If it has parts: not unique if one part is not unique, otherwise
-    /// undecided if one part is undecided.
+    /// Verdict on the whole group. If the group has parts, it is not unique if one part is not
+    /// unique. Otherwise it is undecided if one part is undecided.
     pub judgement: Judgement,
     /// The space of the mechanism.
     pub space: SpaceKind,
@@ -45,7 +45,7 @@ pub struct GroupVerdict {
 ///
 /// # Errors
 /// - [`RequestError::UnknownReaction`], [`RequestError::UnknownComponent`],
-///   [`RequestError::UnknownBody`]: a group names an element that does not exist.
+///   [`RequestError::UnknownBody`]: a group contains an element that does not exist.
 /// - [`RequestError::Empty`]: a group is empty.
 /// - [`RequestError::NotFinite`], [`RequestError::Length`]: a coefficient is not a finite number,
 ///   or t, q and the decision do not fit the mechanism.
@@ -64,12 +64,12 @@ impl Configuration<'_> {
     /// Returns the verdict on a group.
     ///
     /// # Errors
-    /// Same errors as [`judge_groups`].
+    /// Returns the same errors as [`judge_groups`].
     pub fn group(&self, group: &Group) -> Result<GroupVerdict, RequestError> {
         self.group_about(group, self.reactions.about(group)?)
     }
 
-    /// Works like [`Self::group`], with the torques T of wrenches about this point.
+    /// Works like [`Self::group`], but the torques T of wrenches are about this point.
     pub(crate) fn group_about(
         &self,
         group: &Group,
@@ -108,8 +108,8 @@ impl Configuration<'_> {
         }
     }
 
-    /// Returns the total of the reactions of several joints on each body: `Σ C_Xᵀ·λ_X`, with each
-    /// joint counted once.
+    /// Returns the verdict on the sum of the reactions of several joints on each body: `Σ
+    /// C_Xᵀ·λ_X`. Each joint is counted once.
     fn one_joint(&self, members: &[ConstraintId]) -> Result<GroupVerdict, RequestError> {
         let mut rows: Vec<usize> = self
             .reactions

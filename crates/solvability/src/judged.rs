@@ -1,4 +1,5 @@
-//! Results for one part: verdicts on its joints and drives, and its dependencies.
+//! Results for one part: verdicts on the joints and drives of the part, and dependencies of its
+//! rows.
 
 use model::{ConstraintId, Mechanism, SpaceKind, System};
 use rank::RankStatus;
@@ -21,10 +22,10 @@ pub struct ReactionVerdict {
     pub space: SpaceKind,
     /// Type of the joint or drive in scene files.
     pub kind: &'static str,
-    /// Verdict on the wrench: unique iff `B_X = 0` and no component is free because of a row that
-    /// moves no body, such as a row between two parts of the ground.
+    /// Verdict on the wrench. The wrench is unique iff `B_X = 0` and no component is free because
+    /// of a row that moves no body, such as a row between two parts of the ground.
     pub wrench: Judgement,
-    /// Verdict on all its multipliers together: unique iff `Z_X = 0`.
+    /// Verdict on all multipliers together. The multipliers are unique iff `Z_X = 0`.
     pub multipliers: Judgement,
     /// Verdicts on each row of the joint or drive.
     pub rows: Vec<RowVerdict>,
@@ -36,12 +37,14 @@ pub struct ReactionVerdict {
     pub zero_components: Vec<&'static str>,
     /// Basis of the unique directions, in these components.
     pub unique_directions: Vec<Vec<f64>>,
-    /// Basis of the unique directions that are not zero under any load. They are perpendicular to
-    /// the directions in which the reaction is zero at this configuration. `None` if their number
-    /// is undecided; then there are no unique directions, either.
+    /// Basis of the unique directions that are not zero under any load. These directions are
+    /// perpendicular to the directions in which the reaction is zero at this configuration. `None`
+    /// if the number of directions is undecided. In this case the list of unique directions is
+    /// empty as well.
     pub live_directions: Option<Vec<Vec<f64>>>,
-    /// The largest component of the reaction that counts as zero within the tolerance of the scene,
-    /// so that these directions are unique. The value is zero if no component counts as zero.
+    /// The largest component of the reaction that counts as zero within the tolerance of the scene.
+    /// The directions are unique because this component counts as zero. The value is zero if no
+    /// component counts as zero.
     pub directions_left_out: f64,
 }
 
@@ -73,7 +76,8 @@ pub struct RowVerdict {
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct ComponentVerdict {
-    /// `Fx`, `Fy` or `T`; in space `Fx` to `Tz`; or the named component of a definition.
+    /// Name of the component: `Fx`, `Fy` or `T`; in space `Fx` to `Tz`; or the named component of a
+    /// definition.
     pub name: &'static str,
     /// Verdict on the component.
     pub judgement: Judgement,
@@ -94,7 +98,7 @@ pub struct Dependency {
     pub text: String,
 }
 
-/// Results for a part. The numbering is that of the part until [`Self::placed`] is called.
+/// Results for a part. The results have the numbering of the part until [`Self::placed`] is called.
 pub(crate) struct PartResults {
     pub(crate) part: PartAnalysis,
     pub(crate) reactions: Vec<ReactionVerdict>,
@@ -103,8 +107,9 @@ pub(crate) struct PartResults {
 }
 
 impl PartResults {
-    /// Creates the results of a part at time t from its decided rank and the ranks of some of its
-    /// rows. `verdict` returns the verdict on each joint and drive. Dependencies are not listed.
+    /// Creates the results of a part at time t from its decided rank and from the ranks of some of
+    /// its rows. `verdict` returns the verdict on each joint and drive. The results do not list
+    /// dependencies.
     pub(crate) fn new(
         mechanism: &Mechanism,
         t: f64,
@@ -140,7 +145,8 @@ impl PartResults {
         })
     }
 
-    /// Returns the results in the numbering of the whole mechanism; warnings name the part.
+    /// Returns the results in the numbering of the whole mechanism. Warnings contain the name of
+    /// the part.
     pub(crate) fn placed(mut self, whole: &Mechanism, extent: Extent) -> Self {
         if extent.is_whole() {
             return self;

@@ -1,9 +1,9 @@
-//! A large set of joints on common cycles: its rank, and verdicts from random combinations of its
-//! left null space.
+//! A large set of joints on common cycles. The module determines its rank, and verdicts from random
+//! combinations of its left null space.
 //!
-//! The verdict on a joint uses only its own rows of `W = Z·Ω`, as it uses its rows of Z in a small
-//! mechanism. The cost does not depend on the degree of redundancy. Dependencies are reported if
-//! the dependent rows split into small sets of cycles.
+//! The verdict on a joint uses only the rows of the joint in `W = Z·Ω`, as it uses only its rows of
+//! Z in a small mechanism. The cost does not depend on the degree of redundancy. Dependencies are
+//! reported if the dependent rows split into small sets of cycles.
 
 use crate::error::AnalysisError;
 use crate::judged::{Dependency, PartResults, ReactionVerdict};
@@ -95,7 +95,7 @@ fn dependencies(
     Ok(all)
 }
 
-/// Converts the evidence of a sparse rank to that of a dense one.
+/// Converts the evidence of a sparse rank to the evidence of a dense rank.
 fn evidence(found: &SparseRank) -> Evidence {
     let e = found.evidence;
     Evidence {

@@ -16,10 +16,10 @@ pub(crate) const ROWS_MAX: usize = 600;
 /// the analysis takes longer. Test: `a_component_that_is_none_within_the_tolerance_says_so`.
 pub(crate) const TOLERANCE_ROWS: usize = 200;
 
-/// A coefficient above this value is nonzero without further tests: its row belongs to the
-/// dependency. Unit: coefficient of the equilibrated dependencies. Too small: coefficients that a
-/// change of the data could make zero count as nonzero. Too large: the analysis takes longer. Test:
-/// `data_are_asked_about_small_coefficients_that_are_no_noise`.
+/// A coefficient above this value is nonzero without further tests. The row of such a coefficient
+/// belongs to the dependency. Unit: coefficient of the equilibrated dependencies. Too small:
+/// coefficients that a change of the data could make zero count as nonzero. Too large: the analysis
+/// takes longer. Test: `data_are_asked_about_small_coefficients_that_are_no_noise`.
 pub(crate) const COEFFICIENT_LARGE: f64 = 1e-3;
 
 /// A coefficient below this share of its noise is zero without further tests. Unit: share of the
@@ -37,23 +37,23 @@ pub(crate) const ASKED: usize = 2_000;
 /// decided without singular values. Too large: the analysis takes longer. Test: none.
 pub(crate) const SPARSE_FROM: usize = 150;
 
-/// Number of random combinations in excess of the rows of the largest joint. Unit: combinations.
-/// Too small: too few combinations decide a rank. Too large: the analysis takes longer. Test:
-/// `random_combinations_show_the_rank_of_the_largest_joint`.
+/// Number of random combinations in addition to the number of rows of the largest joint. Unit:
+/// combinations. Too small: too few combinations decide a rank. Too large: the analysis takes
+/// longer. Test: `random_combinations_show_the_rank_of_the_largest_joint`.
 pub(crate) const SPARE_COMBINATIONS: usize = 4;
 
 /// A mechanism with at most this number of rows is one part, even if its cycles would divide it.
-/// All of its verdicts then come from one null space. Its rank can also be compared with that at
-/// other configurations, which needs dense matrices of all rows and columns. Unit: rows. Too small:
-/// small mechanisms are not compared with other configurations. Too large: the time grows with the
-/// cube of the rows, and 600 rows take half a minute. Test:
+/// All of its verdicts then come from one null space. Its rank can also be compared with the rank
+/// at other configurations, which needs dense matrices of all rows and columns. Unit: rows. Too
+/// small: small mechanisms are not compared with other configurations. Too large: the time grows
+/// with the cube of the rows, and 600 rows take half a minute. Test:
 /// `a_motor_that_lags_behind_is_named_with_the_joints_between`.
 pub const ONE_PART: usize = 250;
 
 /// Number of vectors of the left null space from which verdicts along a motion are computed. All
-/// vectors are used if there are at most this many. Otherwise this many random combinations of them
-/// are used. Unit: vectors. Too small: a coefficient comes from so few combinations that they may
-/// cancel. Too large: each step takes longer for each row. Test:
+/// vectors are used if there are at most this many. Otherwise this number of random combinations of
+/// the vectors is used. Unit: vectors. Too small: a coefficient comes from so few combinations that
+/// they may cancel. Too large: each step takes longer for each row. Test:
 /// `many_dependencies_are_read_from_few_combinations`.
 pub const CARRIED_VECTORS: usize = 8;
 
@@ -63,9 +63,10 @@ pub const CARRIED_VECTORS: usize = 8;
 /// none.
 pub(crate) const MOTION_CLEARANCE: f64 = 30.0;
 
-/// The data are accurate to several rounding errors, but the numbers of a motion to one rounding
-/// error. Unit: roundings of data. Too small: rounding errors of the motion decide its rank. Too
-/// large: redundant rows near singular configurations are undecided. Test: none.
+/// Accuracy of the numbers of a motion, in roundings of data. The data are accurate to several
+/// rounding errors, but the numbers of a motion to one rounding error. Unit: roundings of data. Too
+/// small: rounding errors of the motion decide its rank. Too large: redundant rows near singular
+/// configurations are undecided. Test: none.
 pub(crate) const ONE_ROUNDING: f64 = f64::EPSILON / 2.0 / model::ROUNDING;
 
 /// The entries of the map from multipliers to a reaction are products of a few numbers near one. If
@@ -74,48 +75,49 @@ pub(crate) const ONE_ROUNDING: f64 = f64::EPSILON / 2.0 / model::ROUNDING;
 /// small components count as zero. Test: none.
 pub(crate) const ROUNDING_OF_MAP: f64 = 1e-14;
 
-/// A first-order estimate is not valid for larger angles (rad). Unit: rad. Too small: estimates
-/// with coarse angle tolerances are rejected. Too large: a first-order estimate is used outside its
-/// range of validity. Test: none.
+/// Angles (rad) above this limit are too large for a first-order estimate. Unit: rad. Too small:
+/// estimates with coarse angle tolerances are rejected. Too large: a first-order estimate is used
+/// outside its range of validity. Test: none.
 pub(crate) const LARGEST_TURN: f64 = 0.1;
 
-/// A component of a unit vector is reported if it is above this value, even if data within their
-/// stated tolerances could make it zero. If it were left out, the printed vector would have a
-/// different direction. Unit: part of a unit vector. Too small: rounding errors are reported. Too
+/// A component of a unit vector above this value is reported, even if data within their stated
+/// tolerances could make the component zero. Without this component, the printed vector would have
+/// a different direction. Unit: part of a unit vector. Too small: rounding errors are reported. Too
 /// large: small components are reported as zero. Test:
 /// `a_part_of_a_direction_is_told_however_uncertain_coefficients_are`.
 pub(crate) const LARGEST_ROUNDING: f64 = 1e-5;
 
 // The intended mechanism.
 
-/// From this singular value upwards, no rounding can explain a lower rank of a matrix of norm one.
+/// From this singular value upwards, rounding cannot cause a lower rank of a matrix of norm one.
 /// Near a singular configuration, a singular value changes with the square root of the data. A
 /// lower rank by rounding would then require a value below a few times √(3·eps). Unit: singular
 /// value of a matrix of norm one. Too small: a rounding error decides a rank. Too large: the
 /// expensive test runs at configurations that are not nearly singular. Test: none.
 pub(crate) const CLEAR_OF_ROUNDING: f64 = 1e-6;
 
-/// The same limit as a multiple of the accuracy of the entries. The larger of the two limits
-/// applies. Unit: multiples of the noise. Too small: a rounding error decides a rank. Too large:
-/// the expensive test runs at configurations that are not nearly singular. Test: none.
+/// The limit [`CLEAR_OF_ROUNDING`] as a multiple of the accuracy of the entries. The larger of the
+/// two limits applies. Unit: multiples of the noise. Too small: a rounding error decides a rank.
+/// Too large: the expensive test runs at configurations that are not nearly singular. Test: none.
 pub(crate) const CLEAR_OF_NOISE: f64 = 1e3;
 
-/// The double-double computation must confirm this share of a singular value from `f64`. Unit:
-/// share of a singular value. Too small: a rounding error of `f64` counts as a singular value. Too
-/// large: ranks are not confirmed. Test: `a_door_turns_within_its_tolerance`.
+/// A singular value from `f64` counts as confirmed if the double-double computation returns at
+/// least this share of the value. Unit: share of a singular value. Too small: a rounding error of
+/// `f64` counts as a singular value. Too large: ranks are not confirmed. Test:
+/// `a_door_turns_within_its_tolerance`.
 pub(crate) const CONFIRMED: f64 = 0.1;
 
-/// A lower rank is reported if data within this share of the size of the mechanism have that rank.
-/// Unit: share of the size of the mechanism. Too small: near redundancy is not reported. Too large:
-/// sound mechanisms are reported as nearly redundant. Test:
+/// A lower rank is reported if data have this rank after changes of at most this share of the size
+/// of the mechanism. Unit: share of the size of the mechanism. Too small: near redundancy is not
+/// reported. Too large: sound mechanisms are reported as nearly redundant. Test:
 /// `a_dead_centre_is_a_pose_and_no_redundancy`.
 pub(crate) const NEAR_TOLD: f64 = 1e-3;
 
-/// The error of first-order equations is the square of the change, as a share of the size, times
-/// this factor. The change that lowers the rank at all configurations is up to ten times the change
-/// for one entry, and second derivatives are about ten if links are short. Unit: 1. Too small: a
-/// first-order estimate is used outside its range of validity. Too large: near redundancy is not
-/// proved. Test: `a_dead_centre_is_a_pose_and_no_redundancy`.
+/// Factor in the error of first-order equations. The error is the square of the change, as a share
+/// of the size, times this factor. The change that lowers the rank at all configurations is up to
+/// ten times the change for one entry. Second derivatives are about ten if links are short. Unit:
+/// 1. Too small: a first-order estimate is used outside its range of validity. Too large: near
+/// redundancy is not proved. Test: `a_dead_centre_is_a_pose_and_no_redundancy`.
 pub(crate) const CURVED: f64 = 100.0;
 
 /// Maximum constraint violation of a configuration on a continuation path, as a share of the size.
@@ -124,11 +126,11 @@ pub(crate) const CURVED: f64 = 100.0;
 /// `a_pin_that_is_off_is_redundant_from_a_part_of_the_misfit_on`.
 pub(crate) const WALKED: f64 = 1e-12;
 
-/// If the weakest entry exceeds this share of the size of C, no change of the data below a
-/// thousandth of the size makes it zero. An entry changes by its own size, times the change of the
-/// configuration. That change is below the inverse of the entry. Unit: share of the size of C. Too
-/// small: near redundancy is not examined. Too large: the analysis takes longer. Test:
-/// `a_pin_that_is_off_is_redundant_from_a_part_of_the_misfit_on`.
+/// Limit for the weakest entry, as a share of the size of C. If the entry is larger, no change of
+/// the data below a thousandth of the size makes it zero. An entry changes by its own size, times
+/// the change of the configuration. This change is below the inverse of the entry. Unit: share of
+/// the size of C. Too small: near redundancy is not examined. Too large: the analysis takes longer.
+/// Test: `a_pin_that_is_off_is_redundant_from_a_part_of_the_misfit_on`.
 pub(crate) const CLEAR_ENTRY: f64 = 0.1;
 
 /// A dependency counts as a dependency of positions if the weight of its nonholonomic rows is below
@@ -137,16 +139,17 @@ pub(crate) const CLEAR_ENTRY: f64 = 0.1;
 /// examined at other configurations. Test: none.
 pub(crate) const HOLONOMIC: f64 = 1e-6;
 
-/// Singular vectors for singular values below this share of the largest one are rounding, and need
-/// not be orthogonal to the others. Unit: share of the largest singular value. Too small: vectors
-/// of rounding are expected to be orthogonal. Too large: small singular vectors are replaced. Test:
-/// `singular_vectors_of_rounding_are_replaced`.
+/// Singular vectors for singular values below this share of the largest singular value are
+/// rounding, and need not be orthogonal to the other singular vectors. Unit: share of the largest
+/// singular value. Too small: vectors of rounding are expected to be orthogonal. Too large: small
+/// singular vectors are replaced. Test: `singular_vectors_of_rounding_are_replaced`.
 pub(crate) const RESOLVED: f64 = 1e-13;
 
 /// Number of left and right singular directions whose entries must vanish at one configuration, the
-/// weakest first. Further directions would require exact zeros next to the near zero. Without them
-/// the share can only become smaller. Unit: pairs. Too small: a share is too small. Too large: the
-/// analysis takes longer, and exact zeros are required. Test: `an_angle_tolerance_counts_alone`.
+/// weakest directions first. Further directions would require exact zeros next to the near zero. If
+/// directions are omitted, the share can only become smaller. Unit: pairs. Too small: a share is
+/// too small. Too large: the analysis takes longer, and exact zeros are required. Test:
+/// `an_angle_tolerance_counts_alone`.
 pub(crate) const PAIRS: usize = 4;
 
 /// Rounding of an entry of a scaled C between unit vectors, in units of eps·√(m·n). Unit:
@@ -159,10 +162,10 @@ pub(crate) const ENTRY_ROUNDINGS: f64 = 16.0;
 /// longer. Test: `a_pin_that_is_off_is_redundant_from_a_part_of_the_misfit_on`.
 pub(crate) const WALK_POSES: usize = 3;
 
-/// Distance from one configuration to the next, as a share of the size or in radians. It is short,
-/// so that the continuation does not cross a singular configuration onto another branch. Unit:
-/// share of the size of the mechanism, or rad. Too small: the configurations are nearly equal. Too
-/// large: the continuation reaches other branches. Test:
+/// Distance from one configuration to the next, as a share of the size or in radians. The distance
+/// is short, so that the continuation does not cross a singular configuration onto another branch.
+/// Unit: share of the size of the mechanism, or rad. Too small: the configurations are nearly
+/// equal. Too large: the continuation reaches other branches. Test:
 /// `a_pin_that_is_off_is_redundant_from_a_part_of_the_misfit_on`.
 pub(crate) const WALK_REACH: f64 = 0.05;
 
@@ -182,11 +185,11 @@ pub(crate) const WALK_SMALL_STEPS: usize = 40;
 /// `rows_that_are_nearly_redundant_at_a_pose_are_left_out_together`.
 pub(crate) const WALK_CORRECTED: f64 = 0.5;
 
-/// The condition of Newton and Kantorovich for a configuration of a continuation. If it is
-/// satisfied, the mechanism has such a configuration for all data within the stated tolerance.
-/// Unit: 1. Too small: redundancy that a tolerance explains is undecided. Too large: configurations
-/// that the intended mechanism does not have are used, and permanent redundancy counts as full
-/// rank. Test: `bricard_with_few_digits_is_right_or_undecided`.
+/// Limit of the condition of Newton and Kantorovich for a configuration of a continuation. If the
+/// condition is satisfied, the mechanism has such a configuration for all data within the stated
+/// tolerance. Unit: 1. Too small: redundancy within a tolerance is undecided. Too large:
+/// configurations that the intended mechanism does not have are used, and permanent redundancy
+/// counts as full rank. Test: `bricard_with_few_digits_is_right_or_undecided`.
 pub(crate) const KNOWN_POSE: f64 = 0.5;
 
 /// Share of the other free directions in the direction of a continuation. Unit: share of a
@@ -194,8 +197,8 @@ pub(crate) const KNOWN_POSE: f64 = 0.5;
 /// Test: `a_way_is_led_by_one_freedom_and_takes_the_others_along`.
 pub(crate) const OTHER_DIRECTIONS: f64 = 0.3;
 
-/// Maximum number of iterations. Each one solves a linear system with as many unknowns as equations
-/// of the problem. Unit: iterations. Too small: bounds of the share are wide. Too large: the
+/// Maximum number of iterations. Each iteration solves a linear system with as many unknowns as the
+/// problem has equations. Unit: iterations. Too small: bounds of the share are wide. Too large: the
 /// analysis takes longer. Test: `one_equation_is_shared_by_all`.
 pub(crate) const CONE_ITERATIONS: usize = 60;
 
@@ -205,29 +208,29 @@ pub(crate) const CONE_ITERATIONS: usize = 60;
 pub(crate) const CONE_CLOSE: f64 = 1.05;
 
 /// Permitted residual of an equation, as a share of its coefficients. Near the square root of eps,
-/// the normal equations cannot distinguish consistent equations from inconsistent ones. The share
-/// is not needed to more digits. Unit: share of the coefficients. Too small: consistent equations
-/// count as inconsistent. Too large: inconsistent equations count as consistent. Test:
+/// the normal equations cannot distinguish consistent equations from inconsistent equations. More
+/// digits of the share are not needed. Unit: share of the coefficients. Too small: consistent
+/// equations count as inconsistent. Too large: inconsistent equations count as consistent. Test:
 /// `what_no_change_satisfies_is_far_away`.
 pub(crate) const CONE_RESOLVED: f64 = 1e-5;
 
-/// Smallest weight, as a share of the largest one. Changes that are not needed thus remain
-/// available. Unit: share of the largest weight. Too small: normal equations lose their digits. Too
-/// large: changes that are not needed remain in the result. Test:
+/// Smallest weight, as a share of the largest weight. With this weight, changes that are not needed
+/// remain available. Unit: share of the largest weight. Too small: normal equations lose their
+/// digits. Too large: changes that are not needed remain in the result. Test:
 /// `numbers_that_need_no_change_stay_out_of_the_bounds`.
 pub(crate) const LEAST_WEIGHT: f64 = 1e-9;
 
 /// Largest difference of two results that agree, as a share of the size. Positions cannot be
-/// corrected onto nonholonomic rows later, so errors of steps that are too long would remain. Unit:
-/// share of the size of the mechanism. Too small: the steps become too small. Too large:
-/// nonholonomic rows are violated. Test: `what_edges_lead_stays_on_its_way`.
+/// corrected onto nonholonomic rows later. Therefore errors of steps that are too long would
+/// remain. Unit: share of the size of the mechanism. Too small: the steps become too small. Too
+/// large: nonholonomic rows are violated. Test: `what_edges_lead_stays_on_its_way`.
 pub(crate) const FOLLOWED: f64 = 1e-12;
 
 // Other configurations.
 
-/// Number of other configurations with which the given one is compared. Unit: configurations. Too
-/// small: a coincidence makes redundancy look permanent. Too large: the analysis takes longer.
-/// Test: `cranks_are_compared_with_themselves_elsewhere`.
+/// Number of other configurations with which the given configuration is compared. Unit:
+/// configurations. Too small: a coincidence makes redundancy look permanent. Too large: the
+/// analysis takes longer. Test: `cranks_are_compared_with_themselves_elsewhere`.
 pub(crate) const POINTS: usize = 4;
 
 /// Maximum number of continuations, including those that reach no new configuration. Unit: walks.
@@ -236,19 +239,19 @@ pub(crate) const POINTS: usize = 4;
 pub(crate) const WALKS: usize = 12;
 
 /// Number of steps from one configuration to the next. Unit: steps. Too small: the configurations
-/// are near the given one. Too large: the analysis takes longer. Test:
+/// are near the given configuration. Too large: the analysis takes longer. Test:
 /// `a_drive_that_is_redundant_at_the_start_alone_contradicts_nothing_later`.
 pub(crate) const GENERIC_STEPS: usize = 4;
 
 /// Length of a step, as a share of the size of the mechanism or in radians. Unit: share of the size
-/// of the mechanism, or rad. Too small: the configurations are near the given one. Too large: the
-/// configurations cannot be assembled. Test:
+/// of the mechanism, or rad. Too small: the configurations are near the given configuration. Too
+/// large: the configurations cannot be assembled. Test:
 /// `a_drive_that_is_redundant_at_the_start_alone_contradicts_nothing_later`.
 pub(crate) const GENERIC_STEP: f64 = 0.2;
 
-/// Number of halved lengths with which a step is tried, because not every displaced mechanism can
-/// be assembled again. Unit: halvings. Too small: the continuation ends at once. Too large: the
-/// analysis takes longer. Test:
+/// Number of halvings with which the length of a step is tried, because not every displaced
+/// mechanism can be assembled again. Unit: halvings. Too small: the continuation ends at once. Too
+/// large: the analysis takes longer. Test:
 /// `a_drive_that_is_redundant_at_the_start_alone_contradicts_nothing_later`.
 pub(crate) const GENERIC_HALVINGS: i32 = 5;
 
@@ -258,16 +261,16 @@ pub(crate) const GENERIC_HALVINGS: i32 = 5;
 /// Test: `legs_that_stay_parallel_are_not_compared_with_those_that_do_not`.
 pub(crate) const GENERIC_STRAYED: f64 = 0.3;
 
-/// Rows that are redundant at one configuration are tested after a step on the other rows. They are
-/// redundant there, too, if their violation is below this share of their terms. Unit: share of the
-/// terms. Too small: a rounding error counts as a violation. Too large: rows that become
-/// inconsistent count as redundant. Test:
+/// Rows that are redundant at one configuration are tested after a step on the other rows. These
+/// rows are redundant at the new configuration, too, if their violation is below this share of
+/// their terms. Unit: share of the terms. Too small: a rounding error counts as a violation. Too
+/// large: rows that become inconsistent count as redundant. Test:
 /// `legs_that_stay_parallel_are_not_compared_with_those_that_do_not`.
 pub(crate) const GENERIC_HOLDS: f64 = 1e-12;
 
-/// Minimum distance of the configurations from each other and from the given one, in the unit of
-/// the step. Unit: share of the size of the mechanism, or rad. Too small: the same configuration is
-/// examined twice. Too large: too few configurations are found. Test:
+/// Minimum distance of the configurations from each other and from the given configuration, in the
+/// unit of the step. Unit: share of the size of the mechanism, or rad. Too small: the same
+/// configuration is examined twice. Too large: too few configurations are found. Test:
 /// `a_drive_that_is_redundant_at_the_start_alone_contradicts_nothing_later`.
 pub(crate) const POINTS_APART: f64 = 0.1;
 
@@ -278,10 +281,10 @@ pub(crate) const POINTS_APART: f64 = 0.1;
 /// corrections lead to another branch. Test: `a_winch_stops_where_its_bar_is_stretched`.
 pub(crate) const LIMIT_STEP: f64 = 0.02;
 
-/// Maximum number of such steps. A run that stops at a limit position ends at most this many steps
-/// before it. Unit: steps. Too small: the limit position is not reached. Too large: limit positions
-/// that did not stop the run are reported as its cause. Test:
-/// `a_winch_stops_where_its_bar_is_stretched`.
+/// Maximum number of steps along the curve of configurations. A run that stops because of a limit
+/// position ends at most this many steps before the limit position. Unit: steps. Too small: the
+/// limit position is not reached. Too large: limit positions that did not stop the run are reported
+/// as its cause. Test: `a_winch_stops_where_its_bar_is_stretched`.
 pub(crate) const LIMIT_STEPS: usize = 20;
 
 /// Maximum number of corrections of a point of the curve. Each correction doubles the number of
@@ -289,21 +292,22 @@ pub(crate) const LIMIT_STEPS: usize = 20;
 /// large: the analysis takes longer. Test: `a_winch_stops_where_its_bar_is_stretched`.
 pub(crate) const LIMIT_CORRECTIONS: usize = 12;
 
-/// The iteration has converged if its correction is shorter than this. Unit: share of the size of
-/// the mechanism, or rad. Too small: rounding errors are corrected without end. Too large: the
-/// limit position has few digits. Test: `a_winch_stops_where_its_bar_is_stretched`.
+/// The iteration has converged if its correction is shorter than this limit. Unit: share of the
+/// size of the mechanism, or rad. Too small: rounding errors are corrected without end. Too large:
+/// the limit position has few digits. Test: `a_winch_stops_where_its_bar_is_stretched`.
 pub(crate) const LIMIT_ARRIVED: f64 = 1e-11;
 
 /// Number of halvings of the last step. Unit: halvings. Too small: the limit position has few
 /// digits. Too large: the analysis takes longer. Test: `a_winch_stops_where_its_bar_is_stretched`.
 pub(crate) const LIMIT_HALVINGS: usize = 40;
 
-/// Components of drives, time and curvatures below this share of the largest one are rounding.
-/// Unit: share. Too small: a rounding error counts as a drive. Too large: a drive is omitted. Test:
-/// `branches_that_meet_are_no_limit`.
+/// Components of drives, time and curvatures below this share of the largest component are
+/// rounding. Unit: share. Too small: a rounding error counts as a drive. Too large: a drive is
+/// omitted. Test: `branches_that_meet_are_no_limit`.
 pub(crate) const LIMIT_ROUNDING: f64 = 1e-6;
 
-/// Maximum number of free velocities at the limit position. The curvature is not examined if there
+/// Maximum number of free velocities at the limit position. If there are more, the curvature is not
+/// examined. Unit: velocities. Too small: drives of mechanisms with a free motion are not named.
 /// are more. Unit: velocities. Too small: drives of mechanisms with a free motion are not named.
 /// Too large: curvatures are not examined. Test: `a_free_arm_reaches_as_far_as_it_is_long`.
 pub(crate) const LIMIT_FORMS: usize = 12;
@@ -322,7 +326,7 @@ pub(crate) const DRIVE_POSITIONS: u32 = 12;
 /// `agreeing_motors_are_followed_through_flat_poses`.
 pub(crate) const STRIDE: f64 = 0.1;
 
-/// Maximum number of steps along the motion. These steps suffice for a dozen revolutions; later
+/// Maximum number of steps along the motion. These steps suffice for a dozen revolutions. Later
 /// contradictions are not found. Unit: steps. Too small: contradictions after few revolutions are
 /// not found. Too large: the analysis takes longer. Test:
 /// `agreeing_motors_are_followed_through_flat_poses`.
@@ -334,10 +338,10 @@ pub(crate) const DRIVE_STEPS: usize = 800;
 /// `agreeing_motors_are_followed_through_flat_poses`.
 pub(crate) const DRIVE_HALVINGS: usize = 6;
 
-/// If drives differ by more than this share of their terms, a run stops with certainty. (Runs
-/// compare to 1e-11, divided by pivots.) Unit: share of the terms. Too small: a rounding error
-/// counts as a contradiction. Too large: runs stop because of contradictions that were not
-/// reported. Test: `small_differences_are_told_at_their_time`.
+/// If drives differ by more than this share of their terms, a run certainly stops. (Runs compare to
+/// 1e-11, divided by pivots.) Unit: share of the terms. Too small: a rounding error counts as a
+/// contradiction. Too large: runs stop because of contradictions that were not reported. Test:
+/// `small_differences_are_told_at_their_time`.
 pub(crate) const RUNS_NOTICE: f64 = 1e-9;
 
 // Analysis along a motion.
@@ -376,14 +380,15 @@ pub(crate) const NARROWING: f64 = 0.25;
 /// `a_motion_near_a_singular_pose_has_regular_samples`.
 pub(crate) const REGULAR_SAMPLE: f64 = 0.1;
 
-/// Number of intervals into which the surroundings of a minimum, with one more sample on each side,
-/// are divided again. Unit: intervals. Too small: minima between samples are missed. Too large: the
-/// search takes longer. Test: `every_flat_pose_and_every_upright_one_of_several_turns`.
+/// Number of intervals into which the surroundings of a minimum are divided again. The surroundings
+/// include one more sample on each side. Unit: intervals. Too small: minima between samples are
+/// missed. Too large: the search takes longer. Test:
+/// `every_flat_pose_and_every_upright_one_of_several_turns`.
 pub(crate) const FINER: u8 = 16;
 
-/// A sign change belongs to a singular configuration if σ_r is below this value there. Otherwise
-/// the rows or the frame have rotated. Unit: singular value of a matrix of norm one. Too small:
-/// singular configurations are missed. Too large: rotations of rows count as singular
+/// A sign change belongs to a singular configuration if σ_r at the sign change is below this value.
+/// Otherwise the rows or the frame have rotated. Unit: singular value of a matrix of norm one. Too
+/// small: singular configurations are missed. Too large: rotations of rows count as singular
 /// configurations. Test: `every_flat_pose_and_every_upright_one_of_several_turns`.
 pub(crate) const SINGULAR_INSTANT: f64 = 1e-6;
 
@@ -392,7 +397,7 @@ pub(crate) const SINGULAR_INSTANT: f64 = 1e-6;
 /// Test: `two_passages_between_samples_show_in_a_turned_motion`.
 pub(crate) const OVERLAP: f64 = 0.5;
 
-/// If a determinant has decreased to this share, it may have crossed zero twice. Unit: share of the
+/// If a determinant has decreased to this share, it may have become zero twice. Unit: share of the
 /// determinant. Too small: pairs of singular configurations are missed. Too large: the search takes
 /// longer. Test: `two_passages_between_samples_show_in_a_small_determinant`.
 pub(crate) const MAY_PASS: f64 = 0.1;
@@ -403,29 +408,29 @@ pub(crate) const MAY_PASS: f64 = 0.1;
 pub(crate) const SAMPLE_HALVINGS: usize = 8;
 
 /// Between two samples, the distance of C from its first value is at most this factor times the
-/// distance between the samples. A motion is nearly straight there. Unit: 1. Too small: singular
-/// configurations of curved motions are missed. Too large: the search takes longer. Test:
+/// distance between the samples. A motion is nearly straight between samples. Unit: 1. Too small:
+/// singular configurations of curved motions are missed. Too large: the search takes longer. Test:
 /// `noise_in_the_states_blurs_the_time_by_as_much`.
 pub(crate) const BENT: f64 = 2.0;
 
 /// The directions of the regular motion are computed at this share of the nearly singular interval
-/// next to the instant. Unit: share of the nearly singular interval. Too small: the directions are
-/// those of the singular configuration. Too large: the directions are those of a distant
+/// away from the instant. Unit: share of the nearly singular interval. Too small: the directions
+/// are those of the singular configuration. Too large: the directions are those of a distant
 /// configuration. Test: `a_pendulum_beside_the_cranks`.
 pub(crate) const BESIDE_PASSAGE: f64 = 1e-2;
 
-/// A minimum must be below this share of the larger one of its neighbours. Unit: share of the
+/// A minimum must be below this share of the larger of its two neighbours. Unit: share of the
 /// larger neighbour. Too small: shallow minima are missed. Too large: a rounding error counts as a
 /// minimum. Test: `a_minimum_lies_a_hundredth_below_a_neighbour`.
 pub(crate) const MINIMUM_LOWER: f64 = 0.99;
 
-/// Number of printed digits of a time that a search has found. The accuracy of such a time is that
-/// of the motion, which is little better than the tolerance of the run. Unit: digits. Too small:
-/// different times look the same. Too large: inaccurate digits are printed. Test:
+/// Number of printed digits of a time that a search has found. The accuracy of such a time is the
+/// accuracy of the motion, which is little better than the tolerance of the run. Unit: digits. Too
+/// small: different times look the same. Too large: inaccurate digits are printed. Test:
 /// `a_motion_that_turns_back_between_two_samples_passes_twice`.
 pub(crate) const SEARCHED_DIGITS: usize = 7;
 
-/// Number of printed digits of a time that follows from a function of the scene. Unit: digits. Too
+/// Number of printed digits of a time that is given by a function of the scene. Unit: digits. Too
 /// small: different times look the same. Too large: inaccurate digits are printed. Test:
 /// `a_rest_in_a_singular_pose_is_a_stretch`.
 pub(crate) const GIVEN_DIGITS: usize = 10;
@@ -433,8 +438,9 @@ pub(crate) const GIVEN_DIGITS: usize = 10;
 // Second order.
 
 /// Maximum number of new motions for which the analysis attempts to prove that they are blocked.
-/// The forms need Γ for each pair of motions. Unit: motions. Too small: blocked motions count as
-/// free. Too large: the analysis takes longer. Test: `a_blocked_freedom_beside_many_others`.
+/// The quadratic forms need Γ for each pair of motions. Unit: motions. Too small: blocked motions
+/// count as free. Too large: the analysis takes longer. Test:
+/// `a_blocked_freedom_beside_many_others`.
 pub(crate) const FORMS_MAX: usize = 32;
 
 /// Maximum number of new motions among which the analysis searches for branches. Unit: motions. Too
@@ -442,10 +448,10 @@ pub(crate) const FORMS_MAX: usize = 32;
 /// `what_is_not_decided_is_said`.
 pub const KERNEL_MAX: usize = 4;
 
-/// Permitted residual of the given motion in the equations, as a share of their coefficients. The
-/// directions of the motion may come from neighbouring configurations. Unit: share of the
-/// coefficients. Too small: motions next to a singular configuration are rejected. Too large: wrong
-/// motions are examined. Test: `forms_are_of_a_motion_and_no_rounding`.
+/// Permitted residual of the given motion in the quadratic equations, as a share of their
+/// coefficients. The directions of the motion may come from neighbouring configurations. Unit:
+/// share of the coefficients. Too small: motions next to a singular configuration are rejected. Too
+/// large: wrong motions are examined. Test: `forms_are_of_a_motion_and_no_rounding`.
 pub(crate) const REGULAR: f64 = 1e-6;
 
 /// Error bound of the coefficients of the forms. Unit: 1. Too small: a rounding error of the forms
@@ -453,8 +459,8 @@ pub(crate) const REGULAR: f64 = 1e-6;
 /// `a_proof_contains_the_motion_by_rounding_only`.
 pub(crate) const FORM_NOISE: f64 = 1e-9;
 
-/// G must exceed this multiple of the identity; the combination w has norm one. Unit: multiples of
-/// the identity. Too small: a rounding error counts as a proof. Too large: blocked motions are
+/// G must exceed this multiple of the identity if the combination w has norm one. Unit: multiples
+/// of the identity. Too small: a rounding error counts as a proof. Too large: blocked motions are
 /// undecided. Test: `a_definite_form_blocks_from_its_margin_on`.
 pub(crate) const MARGIN: f64 = 1e-5;
 
@@ -463,17 +469,17 @@ pub(crate) const MARGIN: f64 = 1e-5;
 pub(crate) const BLOCKED_CORRECTIONS: usize = 1000;
 
 /// Largest number of unknowns for which a covering of the sphere is attempted. The number of boxes
-/// grows exponentially with it. Unit: unknowns. Too small: locked mechanisms are undecided. Too
-/// large: the analysis takes longer. Test: `four_unknowns_are_covered`.
+/// grows exponentially with the number of unknowns. Unit: unknowns. Too small: locked mechanisms
+/// are undecided. Too large: the analysis takes longer. Test: `four_unknowns_are_covered`.
 pub(crate) const COVERED_UNKNOWNS: usize = 4;
 
 /// Maximum number of boxes of a covering. Unit: boxes. Too small: locked mechanisms are undecided.
 /// Too large: the analysis takes longer. Test: `four_unknowns_are_covered`.
 pub(crate) const BOXES: usize = 100_000;
 
-/// Maximum number of halvings of a box. Smaller boxes contain only rounding. Unit: halvings. Too
-/// small: nearly common zeros are undecided. Too large: the analysis takes longer. Test:
-/// `nearly_common_zeros_are_told_apart`.
+/// Maximum number of halvings of a box. A smaller box cannot be distinguished from a point because
+/// of rounding. Unit: halvings. Too small: nearly common zeros are undecided. Too large: the
+/// analysis takes longer. Test: `nearly_common_zeros_are_told_apart`.
 pub(crate) const BOX_HALVINGS: i32 = 50;
 
 /// A quadratic form counts as a combination of other forms if the remainder is below this multiple
@@ -482,19 +488,19 @@ pub(crate) const BOX_HALVINGS: i32 = 50;
 /// `nearly_dependent_forms_are_used`.
 pub(crate) const DEPENDENT_FORMS: f64 = 1e3;
 
-/// The remainder of a form is rounding if it is below this multiple of the error of its
-/// coefficients, for each unknown. Unit: multiples of the error of a coefficient. Too small:
+/// The remainder of a form is rounding if, for each unknown, it is below this multiple of the error
+/// of the coefficients of the form. Unit: multiples of the error of a coefficient. Too small:
 /// dependent forms leave zeros undecided. Too large: a zero of the other forms counts as a zero of
-/// a form that does not have it. Test: `a_form_above_its_error_is_no_rounding`.
+/// a form that is not zero at this point. Test: `a_form_above_its_error_is_no_rounding`.
 pub(crate) const FORMS_OF_ROUNDING: f64 = 8.0;
 
 /// Number of starts of the search for a transversal zero. Unit: starts. Too small: free motions are
 /// undecided. Too large: the analysis takes longer. Test: `three_unknowns`.
 pub(crate) const TRANSVERSAL_STARTS: usize = 60;
 
-/// A singular value of a projection is one or zero. A computed value above this limit is one.
-/// Unit: 1. Too small: a rounding error counts as a set of bodies. Too large: a set of bodies is
-/// omitted. Test: `a_blocked_freedom_beside_many_others`.
+/// A singular value of a projection is one or zero. A computed value above this limit counts as
+/// one. Unit: 1. Too small: a rounding error counts as a set of bodies. Too large: a set of bodies
+/// is omitted. Test: `a_blocked_freedom_beside_many_others`.
 pub(crate) const OWN_SHARE: f64 = 0.5;
 
 /// Number of iterations from one start. Convergence to a simple solution is quadratic. Unit:
@@ -507,9 +513,9 @@ pub(crate) const BRANCH_ITERATIONS: usize = 60;
 /// `a_branch_meets_its_equations_to_rounding`.
 pub(crate) const BRANCH_RESIDUAL: f64 = 1e-12;
 
-/// A solution belongs to another branch if its new motions (and, if driven, its rate of time)
-/// exceed this value. Unit: share of the motion. Too small: the given motion counts as another
-/// branch. Too large: branches are missed. Test:
+/// A solution belongs to another branch if its new motions exceed this value. For driven
+/// mechanisms, the rate of time is included. Unit: share of the motion. Too small: the given motion
+/// counts as another branch. Too large: branches are missed. Test:
 /// `a_branch_differs_from_the_motion_by_a_thousandth`.
 pub(crate) const OTHER_BRANCH: f64 = 1e-3;
 
@@ -517,7 +523,7 @@ pub(crate) const OTHER_BRANCH: f64 = 1e-3;
 /// large: the analysis takes longer. Test: `branches_nearer_than_a_thousandth_are_one`.
 pub(crate) const BRANCH_STARTS: usize = 40;
 
-/// Solutions with a smaller distance are the same solution. Unit: share of the motion. Too small:
+/// Solutions whose distance is smaller are the same solution. Unit: share of the motion. Too small:
 /// one branch counts twice. Too large: two branches count as one. Test:
 /// `branches_nearer_than_a_thousandth_are_one`.
 pub(crate) const SAME_BRANCH: f64 = 1e-6;
@@ -527,7 +533,7 @@ pub(crate) const SAME_BRANCH: f64 = 1e-6;
 /// coefficients count as zero. Test: `forms_are_of_a_motion_and_no_rounding`.
 pub(crate) const FORM_ROUNDING: f64 = 1e-10;
 
-/// Bodies with a smaller velocity are at rest. Unit: m/s, or the rate of rotation that moves a
+/// Bodies whose velocity is smaller are at rest. Unit: m/s, or the rate of rotation that moves a
 /// point of the mechanism by as much. Too small: a rounding error of velocities counts as a motion,
 /// and finite reactions are undecided. Too large: moving bodies are reported to have no finite
 /// reaction. Test: `bodies_that_move_are_undecided`.
@@ -557,29 +563,30 @@ pub const MOTIONS_REPORTED: usize = 12;
 /// large: moving bodies count as resting. Test: `links_of_a_chain_turn_about_their_own_joints`.
 pub(crate) const SATISFIED: f64 = 1e-9;
 
-/// A velocity of length one is new if it differs from the chosen ones by more than this. The limit
-/// exceeds [`SATISFIED`], so that the rounding errors of several conditions do not count as a free
-/// motion. Unit: velocity of length one. Too small: a rounding error counts as a freedom. Too
-/// large: freedoms are missed. Test: `links_of_a_chain_turn_about_their_own_joints`.
+/// A velocity of length one is new if it differs from the chosen velocities by more than this
+/// limit. The limit exceeds [`SATISFIED`]. Therefore the rounding errors of several conditions do
+/// not count as a free motion. Unit: velocity of length one. Too small: a rounding error counts as
+/// a freedom. Too large: freedoms are missed. Test: `links_of_a_chain_turn_about_their_own_joints`.
 pub(crate) const NEW_MOTION: f64 = 1e-6;
 
-/// A velocity below this share of the fastest one is zero; rotations are multiplied by the size of
-/// the mechanism. The limit covers rounding of a null space. Unit: share of the fastest velocity.
-/// Too small: a rounding error counts as a motion. Too large: slow bodies count as resting. Test:
-/// `slides_on_slides_move_along_their_axes`.
+/// A velocity below this share of the fastest velocity is zero. Rotations are multiplied by the
+/// size of the mechanism. The limit covers rounding of a null space. Unit: share of the fastest
+/// velocity. Too small: a rounding error counts as a motion. Too large: slow bodies count as
+/// resting. Test: `slides_on_slides_move_along_their_axes`.
 pub(crate) const AT_REST: f64 = 1e-10;
 
-/// Limit for (joints + bodies) × freedoms² in the search for motions of few joints. Below it, the
-/// search starts from every joint. Above it, the search starts from as many joints as the limit
-/// permits. Unit: joints and bodies times freedoms². Too small: motions of few joints are missed.
-/// Too large: the analysis takes longer. Test: `the_motion_of_fewest_joints_comes_first`.
+/// Limit for (joints + bodies) × freedoms² in the search for motions of few joints. Below the
+/// limit, the search starts from every joint. Above the limit, the search starts from as many
+/// joints as the limit permits. Unit: joints and bodies times freedoms². Too small: motions of few
+/// joints are missed. Too large: the analysis takes longer. Test:
+/// `the_motion_of_fewest_joints_comes_first`.
 pub(crate) const TRIALS: usize = 2_000_000;
 
 // Reactions of a choice, and sensitivity.
 
-/// Error of a number, in rounding errors of the largest multiplier, each scaled by its row. Unit:
-/// multiples of the rounding error of the largest multiplier. Too small: rounding errors are
-/// printed. Too large: correct digits are not printed. Test:
+/// Error of a number, in rounding errors of the largest multiplier. Each multiplier is scaled by
+/// its row. Unit: multiples of the rounding error of the largest multiplier. Too small: rounding
+/// errors are printed. Too large: correct digits are not printed. Test:
 /// `what_two_roundings_leave_is_zero_and_more_is_not`.
 pub(crate) const VALUE_ROUNDINGS: f64 = 4.0;
 
@@ -590,26 +597,27 @@ pub(crate) const VALUE_ROUNDINGS: f64 = 4.0;
 pub(crate) const AGREEMENT: f64 = 1e-9;
 
 /// Number of solutions of the linear system. The first solution contains rounding, and the second
-/// one removes its significant part. Unit: solves. Too small: the rounding of the first solution
-/// remains. Too large: the computation takes longer. Test: `beam_on_three_springs`.
+/// solution removes the significant part of this rounding. Unit: solves. Too small: the rounding of
+/// the first solution remains. Too large: the computation takes longer. Test:
+/// `beam_on_three_springs`.
 pub(crate) const CHOICE_SOLVES: usize = 2;
 
 /// Displacement of a datum for sensitivities. A point moves by this share of the size of the
-/// mechanism (in long chains: of the size of its links), and a direction rotates by as many
-/// radians. A good workshop achieves this accuracy. Unit: share of the size of the mechanism, or
+/// mechanism (in long chains: of the size of its links), and a direction rotates by the same number
+/// of radians. A good workshop achieves this accuracy. Unit: share of the size of the mechanism, or
 /// rad. Too small: reactions that are sensitive to data are not found. Too large: all reactions
 /// count as sensitive. Test: `a_beam_by_hand`.
 pub const MOVED: f64 = 1e-4;
 
 /// If the smallest singular value of the independent rows (scaled to length one) exceeds this
-/// limit, the first order suffices for displacements of [`MOVED`]. Unit: singular value. Too small:
-/// the printed changes near limit positions are too small. Too large: the computation takes longer.
-/// Test: `near_its_limit_a_reaction_changes_by_more_than_first_order`.
+/// limit, the first order is sufficient for displacements of [`MOVED`]. Unit: singular value. Too
+/// small: the printed changes near limit positions are too small. Too large: the computation takes
+/// longer. Test: `near_its_limit_a_reaction_changes_by_more_than_first_order`.
 pub(crate) const NEAR_LIMIT: f64 = 5e-2;
 
-/// If a number changes by less than this to first order, higher orders do not make it sensitive to
-/// data. Unit: share of the number or the load. Too small: the computation takes longer. Too large:
-/// the printed changes near limit positions are too small. Test:
+/// If a number changes by less than this limit to first order, higher orders do not make it
+/// sensitive to data. Unit: share of the number or the load. Too small: the computation takes
+/// longer. Too large: the printed changes near limit positions are too small. Test:
 /// `near_its_limit_a_reaction_changes_by_more_than_first_order`.
 pub(crate) const FIRST_ORDER: f64 = 0.01;
 
@@ -626,9 +634,10 @@ pub(crate) const ALIKE: f64 = 0.7;
 /// `near_its_limit_a_reaction_changes_by_more_than_first_order`.
 pub(crate) const SAME_WAY: f64 = 0.999_999;
 
-/// Maximum number of data that are displaced near a limit position: those that change a number
-/// most. Unit: data. Too small: a number depends on a datum that is not displaced. Too large: the
-/// computation takes longer. Test: `near_its_limit_a_reaction_changes_by_more_than_first_order`.
+/// Maximum number of data that are displaced near a limit position. The data that change a number
+/// most are displaced. Unit: data. Too small: a number depends on a datum that is not displaced.
+/// Too large: the computation takes longer. Test:
+/// `near_its_limit_a_reaction_changes_by_more_than_first_order`.
 pub(crate) const FOLLOWED_DATA: usize = 64;
 
 /// Limit for the operations of all displacements: displaced data × corrections × rows × columns².
@@ -642,9 +651,10 @@ pub(crate) const FOLLOWED_WORK: usize = 1_000_000_000;
 /// `near_its_limit_a_reaction_changes_by_more_than_first_order`.
 pub(crate) const FOLLOW_STEPS: usize = 8;
 
-/// Share of the displacement in the first step, which shows how fast the bodies move. Unit: share.
-/// Too small: a rounding error determines the speed of the bodies. Too large: a jump of the speed
-/// is not noticed. Test: `near_its_limit_a_reaction_changes_by_more_than_first_order`.
+/// Length of the first step, as a share of the displacement. The step shows how fast the bodies
+/// move. Unit: share. Too small: a rounding error determines the speed of the bodies. Too large: a
+/// jump of the speed is not noticed. Test:
+/// `near_its_limit_a_reaction_changes_by_more_than_first_order`.
 pub(crate) const FOLLOW_FIRST: f64 = 1e-3;
 
 /// A step has left the branch if it moves the bodies by more than this multiple of the previous
@@ -676,9 +686,9 @@ pub const FRAGILE: f64 = 0.1;
 pub(crate) const SLOPE_STEP: f64 = 1e-5;
 
 /// If a reaction changes by this share of its size or more, the first order does not show how large
-/// the change is. The estimate only shows that no digit of the reaction is correct. Unit: share of
-/// the reaction. Too small: estimates of the first order are omitted. Too large: estimates outside
-/// the range of the first order are printed. Test: `sentences_are_for_people`.
+/// the change is. The estimate then shows only that no digit of the reaction is correct. Unit:
+/// share of the reaction. Too small: estimates of the first order are omitted. Too large: estimates
+/// outside the range of the first order are printed. Test: `sentences_are_for_people`.
 pub(crate) const BEYOND: f64 = 1.0;
 
 /// From this factor upwards, "several times" would understate the change. Unit: 1. Too small:
@@ -686,21 +696,21 @@ pub(crate) const BEYOND: f64 = 1.0;
 pub(crate) const MANY: f64 = 30.0;
 
 /// A load below this share of m·v²/size is the rounding of a motion without loads. The load
-/// m·v²/size stops the bodies within the size of the mechanism. Unit: share of the speed that stops
+/// m·v²/size stops the bodies within the size of the mechanism. Unit: share of the load that stops
 /// the bodies. Too small: a rounding error counts as a load. Too large: small loads count as zero.
 /// Test: `a_small_load_beside_a_fast_motion_is_a_load`.
 pub(crate) const LOAD_ROUNDING: f64 = 1e-9;
 
 /// Points move by a share of the size of the mechanism, but at most by the same share of this
 /// multiple of the reach of the bodies that they join. A chain of a hundred links is manufactured
-/// link by link, so the errors of its holes are not a hundred times larger. The limit has no effect
-/// on mechanisms of a few bodies. Unit: multiples of the largest distance of the bodies. Too small:
-/// short chains are analysed link by link. Too large: long chains count as sensitive. Test:
+/// link by link. Therefore the errors of its holes are not a hundred times larger. The limit has no
+/// effect on mechanisms of a few bodies. Unit: multiples of the largest distance of the bodies. Too
+/// small: short chains are analysed link by link. Too large: long chains count as sensitive. Test:
 /// `sensitivities_are_those_of_mechanisms_built_with_other_numbers`.
 pub(crate) const PIECE: f64 = 20.0;
 
 /// If the effects of several points differ by less than this factor, the first point is named. An
-/// example are two points that coincide. Reactions that depend on the same constraint violation are
+/// example is two points that coincide. Reactions that depend on the same constraint violation are
 /// then named in one sentence. Unit: 1. Too small: several sentences name the same constraint
 /// violation. Too large: one sentence combines different constraint violations. Test:
 /// `a_beam_by_hand`.
@@ -725,37 +735,37 @@ pub(crate) const OF_ENTRY: usize = 350;
 /// are rejected. Test: none, work only.
 pub(crate) const OF_VELOCITY: usize = 340;
 
-/// The analysis of a small mechanism needs this number of dense matrices (all rows × all columns)
-/// in memory. Unit: matrices. Too small: memory is exhausted. Too large: runs are rejected. Test:
+/// Number of dense matrices (all rows × all columns) in memory during the analysis of a small
+/// mechanism. Unit: matrices. Too small: memory is exhausted. Too large: runs are rejected. Test:
 /// none, work only.
 pub(crate) const DENSE_MATRICES: usize = 16;
 
-/// A mechanism of several parts needs this number of dense matrices (all rows × all columns) in
-/// memory when its rank is certified. Unit: matrices. Too small: memory is exhausted. Too large:
-/// runs are rejected. Test: none, work only.
+/// Number of dense matrices (all rows × all columns) in memory when the rank of a mechanism of
+/// several parts is certified. Unit: matrices. Too small: memory is exhausted. Too large: runs are
+/// rejected. Test: none, work only.
 pub(crate) const CERTIFIED_MATRICES: usize = 9;
 
-/// Largest distance of a reported point about which the moment of free wrenches vanishes. Free
-/// wrenches that are couples except for rounding have such a point at infinity. Unit: multiples of
-/// the size of the mechanism. Too small: a centre outside the mechanism is not printed. Too large:
-/// points without practical interest are printed. Test: `a_couple_has_no_centre`.
+/// Largest distance of a reported point about which the moment of free wrenches vanishes. If free
+/// wrenches are couples except for rounding, this point is at infinity. Unit: multiples of the size
+/// of the mechanism. Too small: a centre outside the mechanism is not printed. Too large: points
+/// without practical interest are printed. Test: `a_couple_has_no_centre`.
 pub(crate) const FAR_CENTRE: f64 = 100.0;
 
-/// Forces of free wrenches below this share of the largest one are rounding. Such forces are not
+/// Forces of free wrenches below this share of the largest force are rounding. Such forces are not
 /// used to compute the point about which the moment vanishes. Unit: share of the largest singular
 /// value. Too small: points lie at random on a line of action. Too large: points do not belong to
 /// the wrenches. Test: `points_of_a_line_are_the_nearest`.
 pub(crate) const FREE_FORCE: f64 = 1e-9;
 
 /// Smallest pivot, as a share of the largest remaining entry, in the computation of readable bases
-/// of directions. The entries are as accurate as the data, and a small pivot multiplies their
-/// errors. Unit: share of the largest entry. Too small: directions of inexact data are wrong. Too
-/// large: unique components are still printed separately, but other components become pivots. Test:
-/// `what_the_data_miss_is_not_multiplied`.
+/// of directions. The entries are as accurate as the data, and a small pivot multiplies the errors
+/// of the data. Unit: share of the largest entry. Too small: directions of inexact data are wrong.
+/// Too large: unique components are still printed separately, but other components become pivots.
+/// Test: `what_the_data_miss_is_not_multiplied`.
 pub(crate) const SHARE_OF_PIVOT: f64 = 0.1;
 
-/// A component of a self-stress below this share of its largest component is zero, in drawings and
-/// in sentences. Such a component is rounding of the dependence. Unit: share of the largest number.
+/// A component of a self-stress below this share of the largest component is zero, in drawings and
+/// in sentences. Such a component is rounding of the dependency. Unit: share of the largest number.
 /// Too small: rounding errors are shown. Too large: small numbers are not shown. Test:
 /// `far_axes_and_translations_are_told_apart`.
 pub(crate) const VISIBLE: f64 = 1e-9;
@@ -788,15 +798,15 @@ pub(crate) const NAMED_BODIES: usize = 6;
 /// `a_part_is_named_by_its_first_three_joints`.
 pub(crate) const FIRST_NAMED: usize = 3;
 
-/// Number of undetermined load components of a set of joints above which the load of each joint is
-/// not described. Unit: load components. Too small: short lists are omitted. Too large: joints that
-/// share all loads are described by a sentence of several lines. Test:
+/// Maximum number of undetermined load components of a set of joints for which the load of each
+/// joint is described. Unit: load components. Too small: short lists are omitted. Too large: joints
+/// that share all loads are described by a sentence of several lines. Test:
 /// `many_loads_are_not_described_joint_by_joint`.
 pub(crate) const MANY_LOADS: usize = 5;
 
-/// Maximum number of rows that a label lists completely. For more rows it names only the first few.
-/// Unit: rows. Too small: rows are counted, but not named. Too large: the labels are too long to
-/// read. Test: `eliminations_of_the_robot_are_runs_without_these_rows`.
+/// Maximum number of rows that a label lists completely. For more rows the label contains only the
+/// first few. Unit: rows. Too small: rows are counted, but not named. Too large: the labels are too
+/// long to read. Test: `eliminations_of_the_robot_are_runs_without_these_rows`.
 pub(crate) const NAMED_ROWS: usize = 12;
 
 /// Maximum number of rows that a sentence lists. Unit: rows. Too small: rows are counted, but not
@@ -804,17 +814,18 @@ pub(crate) const NAMED_ROWS: usize = 12;
 /// `every_answer_is_that_of_its_session`.
 pub(crate) const TELLABLE: usize = 8;
 
-/// Minor, or component of a load, of a self-stress that counts as zero, relative to its rows. Unit:
-/// dimensionless. Too small: rounding errors create sets of components that cannot be zero
-/// together. Too large: weak self-stresses are ignored. Test: `a_weak_component_is_undecided`.
+/// Limit below which a minor, or a component of a load, of a self-stress counts as zero, relative
+/// to its rows. Unit: dimensionless. Too small: rounding errors create sets of components that
+/// cannot be zero together. Too large: weak self-stresses are ignored. Test:
+/// `a_weak_component_is_undecided`.
 pub(crate) const ZERO_MINOR: f64 = 1e-10;
 
-/// Minor of a self-stress that is certainly not zero, relative to its rows. Unit: dimensionless.
-/// Too small: bounds depend on rounding. Too large: bounds of weak self-stresses are rejected.
-/// Test: `a_weak_component_is_undecided`.
+/// Limit from which a minor of a self-stress is certainly not zero, relative to its rows. Unit:
+/// dimensionless. Too small: bounds depend on rounding. Too large: bounds of weak self-stresses are
+/// rejected. Test: `a_weak_component_is_undecided`.
 pub(crate) const CLEAR_MINOR: f64 = 1e-7;
 
-/// Factor between the accuracy of coefficients and a coefficient that is certainly not zero. Unit:
+/// Ratio of a coefficient that is certainly not zero to the accuracy of coefficients. Unit:
 /// dimensionless. Too small: bounds depend on the accuracy of the data. Too large: bounds within a
 /// tolerance are rejected. Test: `a_weak_component_is_undecided`.
 pub(crate) const CLEAR_OF_ZERO: f64 = 10.0;
@@ -824,27 +835,28 @@ pub(crate) const CLEAR_OF_ZERO: f64 = 10.0;
 /// `too_many_sets_are_refused`.
 pub(crate) const ELASTIC_SETS: u64 = 100_000;
 
-/// Number of random sets of compliances if there are too many sets of components. Unit: sets. Too
-/// small: the range that is reached is narrow. Too large: the request takes long. Test:
-/// `a_range_that_is_reached_is_not_called_bounds`.
+/// Number of random sets of compliances that are used if there are too many sets of components.
+/// Unit: sets. Too small: the range that is reached is narrow. Too large: the request takes long.
+/// Test: `a_range_that_is_reached_is_not_called_bounds`.
 pub(crate) const RANDOM_SAMPLES: usize = 200;
 
-/// Square root of the ratio of compliances in these sets. Unit: dimensionless. Too small: the range
-/// that is reached is narrow. Too large: solutions lose digits. Test:
+/// Square root of the ratio of compliances in the random sets. Unit: dimensionless. Too small: the
+/// range that is reached is narrow. Too large: solutions lose digits. Test:
 /// `a_range_that_is_reached_is_not_called_bounds`.
 pub(crate) const SAMPLED_RATIO: f64 = 1e3;
 
-/// Maximum number of multiplications for these sets. Unit: multiplications. Too small: large parts
-/// have no range. Too large: the request takes long. Test: none, work only.
+/// Maximum number of multiplications for the random sets. Unit: multiplications. Too small: large
+/// parts have no range. Too large: the request takes long. Test: none, work only.
 pub(crate) const SAMPLE_WORK: usize = 2_000_000_000;
 
-/// Logarithm of the largest factor between weights of solutions that restricts their averages.
-/// Unit: natural logarithm. Too small: bounds within a factor are wider than necessary. Too large:
-/// weights leave the range of numbers. Test: `large_factors_restrict_nothing`.
+/// Logarithm of the largest factor between weights of solutions for which the factor restricts
+/// their averages. Unit: natural logarithm. Too small: bounds within a factor are wider than
+/// necessary. Too large: weights leave the range of numbers. Test:
+/// `large_factors_restrict_nothing`.
 pub(crate) const LARGEST_EXPONENT: f64 = 500.0;
 
-/// Difference of leverages that count as equal. Unit: dimensionless. Too small: axes depend on
-/// rounding. Too large: axes of different leverages are mixed. Test:
+/// Largest difference of two leverages that count as equal. Unit: dimensionless. Too small: axes
+/// depend on rounding. Too large: axes of different leverages are mixed. Test:
 /// `bounds_do_not_depend_on_the_axes_of_the_scene`.
 pub(crate) const EQUAL_LEVERAGE: f64 = 1e-6;
 
@@ -864,89 +876,93 @@ pub(crate) const MERGED_POINTS: usize = 20_000;
 /// `bounds_within_a_factor_are_those_of_corners`.
 pub(crate) const CORNER_POINTS: usize = 1_000_000;
 
-/// Difference of values at the end of a range that count as equal, relative to the largest value.
-/// Unit: dimensionless. Too small: an end is not marked as reached because of rounding. Too large:
-/// an end is marked as reached by another solution. Test:
+/// Largest difference of two values at the end of a range that count as equal, relative to the
+/// largest value. Unit: dimensionless. Too small: an end is not marked as reached because of
+/// rounding. Too large: an end is marked as reached by another solution. Test:
 /// `the_middle_of_two_joints_is_not_reached`.
 pub(crate) const TIED_ENDS: f64 = 1e-12;
 
-/// Weight or squared residual that counts as zero in the test of vertices. Unit: dimensionless. Too
-/// small: rounding errors create vertices. Too large: vertices are not found. Test:
-/// `vertices_are_separated_and_midpoints_are_not`.
+/// Limit below which a weight or a squared residual counts as zero in the test of vertices. Unit:
+/// dimensionless. Too small: rounding errors create vertices. Too large: vertices are not found.
+/// Test: `vertices_are_separated_and_midpoints_are_not`.
 pub(crate) const SEPARATED: f64 = 1e-9;
 
 /// Maximum number of steps of the test of vertices. Unit: steps. Too small: vertices are not found.
 /// Too large: the test takes long. Test: `vertices_are_separated_and_midpoints_are_not`.
 pub(crate) const SEPARATION_STEPS: usize = 1000;
 
-/// Part of a row outside of the rows of another joint that counts as zero, relative to the row.
-/// Unit: dimensionless. Too small: rounding errors hide weaker joints. Too large: a joint that
-/// restricts another motion counts as weaker. Test: `a_weaker_joint_restricts_no_other_motion`.
+/// Limit below which the part of a row outside of the rows of another joint counts as zero,
+/// relative to the row. Unit: dimensionless. Too small: rounding errors hide weaker joints. Too
+/// large: a joint that restricts another motion counts as weaker. Test:
+/// `a_weaker_joint_restricts_no_other_motion`.
 pub(crate) const SAME_SPAN: f64 = 1e-9;
 
-/// Part of a released load component that is independent of the other released components,
+/// Required part of a released load component that is independent of the other released components,
 /// relative to the component. Unit: dimensionless. Too small: replacements leave a mechanism that
 /// is nearly redundant. Too large: replacements are not found. Test:
 /// `dependent_releases_are_no_replacement`.
 pub(crate) const CLEARLY_RELEASED: f64 = 1e-5;
 
 /// Maximum number of steps of the search for replacements of joints. Unit: steps. Too small: the
-/// first sets are not the cheapest ones, or no set is found. Too large: the search takes long.
+/// first sets are not the cheapest sets, or no set is found. Too large: the search takes long.
 /// Test: `the_search_ends`.
 pub(crate) const REPLACEMENT_STEPS: usize = 100_000;
 
 /// Number of sets of replacements that are kept. Unit: sets. Too small: no set is left if the first
-/// ones cannot be used. Too large: the search takes longer. Test: none, work only.
+/// sets cannot be used. Too large: the search takes longer. Test: none, work only.
 pub(crate) const REPLACEMENT_WAYS: usize = 3;
 
-/// Difference of two measures of independence that count as equal. Unit: natural logarithm. Too
-/// small: a rounding error decides which of two equal sets of replacements comes first. Too large:
-/// the first set is less clearly independent than another one. Test: `equal_sets_keep_their_order`.
+/// Largest difference of two measures of independence that count as equal. Unit: natural logarithm.
+/// Too small: a rounding error decides which of two equal sets of replacements comes first. Too
+/// large: the first set is less clearly independent than another set. Test:
+/// `equal_sets_keep_their_order`.
 pub(crate) const TIED_CLEARNESS: f64 = 1e-6;
 
-/// Force of a support, or weight in a proof, that counts as zero. Unit: share of the size of the
-/// loads, of the largest acceleration or of the largest weight. Too small: a load exactly above an
-/// edge of a table has no admissible reactions. Too large: supports that lift slowly count as
-/// closed. Test: `a_load_above_an_edge_is_not_outside`.
+/// Limit below which the force of a support, or a weight in a proof, counts as zero. Unit: share of
+/// the size of the loads, of the largest acceleration or of the largest weight. Too small: a load
+/// exactly above an edge of a table has no admissible reactions. Too large: supports that lift
+/// slowly count as closed. Test: `a_load_above_an_edge_is_not_outside`.
 pub(crate) const SUPPORT_ROUNDING: f64 = 1e-12;
 
-/// Force of a support that is certainly not zero. Unit: share of the size of the loads, or of the
-/// largest acceleration. Too small: rounding decides which supports lift. Too large: small loads
-/// beyond an edge are undecided. Test: `a_load_above_an_edge_is_not_outside`.
+/// A support whose force is at least this limit certainly carries a load. Unit: share of the size
+/// of the loads, or of the largest acceleration. Too small: rounding decides which supports lift.
+/// Too large: small loads beyond an edge are undecided. Test:
+/// `a_load_above_an_edge_is_not_outside`.
 pub(crate) const CLEAR_SUPPORT: f64 = 1e-9;
 
-/// Force with which a contact pulls that is certainly not zero. A motion is less accurate than its
-/// start. Unit: share of the largest load. Too small: a contact without load is said to pull. Too
-/// large: a contact that begins to pull is reported late. Test:
-/// `contacts_that_pull_are_one_warning`.
+/// Limit of the force with which a contact pulls. Above this limit, the contact certainly pulls. A
+/// motion is less accurate than its start. Unit: share of the largest load. Too small: a contact
+/// without load is reported to pull. Too large: a contact that begins to pull is reported late.
+/// Test: `contacts_that_pull_are_one_warning`.
 pub(crate) const CLEAR_PULL: f64 = 1e-6;
 
 /// Maximum number of changes of the set of supports that carry a load. Unit: steps. Too small:
-/// mechanisms with many supports have no range. Too large: a search that rounding errors keep from
-/// its end takes long. Test: none, work only.
+/// mechanisms with many supports have no range. Too large: a search that does not end because of
+/// rounding errors takes long. Test: none, work only.
 pub(crate) const PIVOTS: usize = 10_000;
 
-/// Acceleration of a gap that counts as zero, relative to the largest one without pressing forces
-/// or without any other joint. Unit: dimensionless. Too small: contacts that stay closed are said
-/// to open. Too large: a contact that opens slowly is not named. Test:
-/// `a_load_beyond_the_edge_lifts_two_legs`.
+/// Limit below which the acceleration of a gap counts as zero. The limit is relative to the largest
+/// acceleration without pressing forces or without any other joint. Unit: dimensionless. Too small:
+/// contacts that stay closed are reported to open. Too large: a contact that opens slowly is not
+/// named. Test: `a_load_beyond_the_edge_lifts_two_legs`.
 pub(crate) const OPENING: f64 = 1e-9;
 
-/// Number of sides of the polygons that stand for the circle of a contact that grips in two
-/// directions. Unit: sides. Too small: the least friction is known to few digits. Too large: the
+/// Number of sides of the polygon that approximates the circle of a contact with friction in two
+/// directions. Unit: sides. Too small: the least friction is computed to few digits. Too large: the
 /// linear programs take long. Test: `a_wheel_grips_in_all_directions`.
 pub(crate) const GRIP_SIDES: u32 = 32;
 
-/// Accuracy of the least coefficient of friction. Unit: dimensionless. Too small: it takes long,
-/// and rounding decides. Too large: the coefficient differs from that of textbooks. Test:
+/// Accuracy of the least coefficient of friction. Unit: dimensionless. Too small: the search takes
+/// long, and rounding decides. Too large: the coefficient differs from that of textbooks. Test:
 /// `a_ladder_holds_with_the_friction_of_textbooks`.
 pub(crate) const GRIP_ACCURACY: f64 = 1e-10;
 
 /// Largest coefficient of friction that is examined. Unit: dimensionless. Too small: a contact on a
-/// steep slope is said to slip with any friction. Too large: it takes long. Test: none, work only.
+/// steep slope is reported to slip with any friction. Too large: the search takes long. Test: none,
+/// work only.
 pub(crate) const LARGEST_FRICTION: f64 = 1e6;
 
-/// Part of the force of a row across other rows of its contact that counts as zero. Unit:
-/// dimensionless. Too small: rounding makes a direction of slip. Too large: directions close to
-/// each other count as one. Test: `a_wheel_grips_in_all_directions`.
+/// Limit below which the part of the force of a row across other rows of its contact counts as
+/// zero. Unit: dimensionless. Too small: rounding makes a direction of slip. Too large: directions
+/// close to each other count as one. Test: `a_wheel_grips_in_all_directions`.
 pub(crate) const PARALLEL_SLIP: f64 = 1e-9;

@@ -1,12 +1,12 @@
 //! Describes spatial loads that joints can exert on each other without a resultant load on the
-//! bodies. The description of each joint lists the forces and moments that it can carry, which form
-//! a space of wrenches.
+//! bodies. The description of each joint lists the forces and moments that the joint can carry.
+//! These form a space of wrenches.
 //!
-//! In one loop, all joints carry the same wrench. Its description depends on the space of these
-//! wrenches, and not on the choice of rows of the joints.
+//! In one loop, all joints carry the same wrench. The description of this wrench depends on the
+//! space of the wrenches, and not on the choice of rows of the joints.
 //!
-//! The sentences use twists and wrenches, not rows, so they do not depend on the equations by which
-//! a joint is defined.
+//! The sentences use twists and wrenches instead of rows. Therefore they do not depend on the
+//! equations by which a joint is defined.
 
 use linalg::{Matrix, PivotedQr, small_svd};
 use model::space::{cross, difference, dot, norm};
@@ -18,7 +18,7 @@ use model::words::short;
 
 /// Description of the loads on some joints.
 pub(crate) enum LoadDescription {
-    /// One load, or the loads of one space, that all joints carry.
+    /// One load that all joints carry, or all loads of one space.
     Common(String),
     /// The same load at every joint, at its own reference point.
     Each(String),
@@ -26,7 +26,7 @@ pub(crate) enum LoadDescription {
     Various(String),
 }
 
-/// Describes the loads on these joints for the multipliers (all rows × any number) that span them.
+/// Describes the loads on these joints. The multipliers (all rows × any number) span the loads.
 /// Returns `None` in the plane, and if too many joints carry different loads.
 pub(crate) fn tell(
     mechanism: &Mechanism,
@@ -106,14 +106,16 @@ struct Places {
     places: Vec<[f64; 3]>,
 }
 
-/// A space of wrenches: orthonormal columns of force and moment divided by the size, 6 × d.
+/// A space of wrenches, given by orthonormal columns (6 × d). Each column contains a force, and a
+/// moment divided by the size.
 struct Wrenches(Matrix);
 
 /// A force and its moment, both dimensionless.
 type Wrench = [[f64; 3]; 2];
 
 impl Wrenches {
-    /// Returns the space that these columns span; columns up to `nothing` are rounding.
+    /// Returns the space that these columns span. Columns whose size is at most `nothing` are
+    /// rounding.
     fn spanned(columns: &Matrix, nothing: f64) -> Self {
         let qr = PivotedQr::of_columns(columns);
         let rank = qr.r_diagonal().filter(|r| r.abs() > nothing).count();
@@ -179,10 +181,10 @@ impl Wrenches {
 }
 
 impl Places {
-    /// Describes a point on the lines of action of all forces; the moments `couples` are arbitrary
-    /// and are ignored. If a joint of the sentence is at this point, the text names the joint. The
-    /// text is empty if the forces act at the reference points of all their joints. If no such
-    /// point exists, the text states the remaining moments.
+    /// Describes a point on the lines of action of all forces. The moments `couples` are arbitrary
+    /// and are ignored. If a joint of the sentence is at this point, the text contains the name of
+    /// the joint. The text is empty if the forces act at the reference points of all their joints.
+    /// If no such point exists, the text states the remaining moments.
     fn through(&self, own: &[bool], loads: &[Wrench], couples: &[[f64; 3]]) -> String {
         // The forces are unit vectors, so that moments are lengths.
         let sizes = loads.iter().map(|[force, _]| norm(force));
@@ -210,7 +212,8 @@ impl Places {
         if let Some((name, _)) = named.into_iter().next() {
             return format!(" through {name}");
         }
-        // The moments vanish, or have a minimum, where the gradient of their square is zero.
+        // The moments are zero, or have a minimum, at the point at which the gradient of their
+        // square is zero.
         let zero = moments([0.0; 3]);
         let unit = |k: usize| moments(std::array::from_fn(|i| f64::from(u8::from(i == k))));
         let columns = [0, 1, 2].map(unit);

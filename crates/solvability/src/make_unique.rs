@@ -1,10 +1,10 @@
 //! Finds rows to delete so that a given reaction becomes unique and the motion does not change.
 //!
-//! The uniqueness then follows from a decision of the designer, who assumes that these rows carry
-//! no load. Such a uniqueness is not a result of the model. The rule for proposals: any row may be
-//! relaxed as long as its joint keeps one row (a revolute becomes a pin in a slot). A joint or
-//! drive with a single row may be deleted. If such deletions do not suffice, whole joints may be
-//! deleted as well.
+//! The uniqueness then results from a decision of the designer, who assumes that these rows carry
+//! no load. The uniqueness is not a result of the model. The rule for proposals is as follows. Any
+//! row may be relaxed as long as its joint keeps one row (a revolute becomes a pin in a slot). A
+//! joint or drive with a single row may be deleted. If such deletions are not sufficient, whole
+//! joints may be deleted as well.
 
 use linalg::Matrix;
 use model::{ConstraintId, ConstraintKind, Layout, Mechanism, RowRanges, System};
@@ -16,8 +16,8 @@ use crate::words::list;
 /// Rows that may be proposed for deletion.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub enum DeletableRows {
-    /// Single rows, but not all rows of a joint with several rows. If this does not suffice, any
-    /// rows.
+    /// Single rows, but not all rows of a joint with several rows. If such deletions are not
+    /// sufficient, any rows.
     #[default]
     Sensible,
     /// Whole joints and drives.
@@ -42,18 +42,18 @@ pub struct Proposal {
 #[non_exhaustive]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Proposals {
-    /// The proposals. Each proposal is sufficient by itself, and each of its rows is needed. Empty
-    /// if no allowed deletion is sufficient.
+    /// The proposals. Each proposal is sufficient by itself, and each of its rows is needed. The
+    /// list is empty if no allowed deletion is sufficient.
     pub ways: Vec<Proposal>,
-    /// Whether all proposals of that size are listed.
+    /// Whether all proposals with the smallest number of deletions are listed.
     pub complete: bool,
-    /// Whether joints with several rows lose all of them, because no deletion that leaves them a
-    /// row suffices.
+    /// Whether joints with several rows lose all of their rows. Such joints lose all rows if no
+    /// deletion that leaves them a row is sufficient.
     pub whole: bool,
 }
 
-/// Finds the smallest deletions that make the wrench of a joint or drive unique without a change of
-/// motion.
+/// Finds the smallest deletions that make the wrench of a joint or drive unique without changing
+/// the motion.
 ///
 /// # Errors
 /// Returns an error if the rank is undecided, if it is undecided whether a deletion is sufficient,

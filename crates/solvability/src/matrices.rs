@@ -1,14 +1,14 @@
-//! Solvability of a plain constraint matrix: which combinations of multipliers are the same in all
-//! solutions `λ = λ₀ + Z·y` of `M·a + Cᵀ·λ = Q`.
+//! Solvability of a plain constraint matrix. The module determines which combinations of
+//! multipliers are the same in all solutions `λ = λ₀ + Z·y` of `M·a + Cᵀ·λ = Q`.
 //!
-//! Rows may be grouped in any way; groups may overlap. A row listed twice in a group counts once. A
-//! group without rows has no reaction and is unique with margin 0. The meaning of rows and groups
-//! is the subject of `mechanism`; the rank is decided in the crate `rank`.
+//! Rows may be grouped in any way, and groups may overlap. A row listed twice in a group counts
+//! once. A group without rows has no reaction and is unique with margin 0. The module `mechanism`
+//! defines the meaning of rows and groups; the crate `rank` decides the rank.
 //!
-//! Source: Wojtyra, Frączek (2013), doi 10.1007/s11044-013-9352-0: with `C·P = Q·R` and the last p
+//! Source: Wojtyra, Frączek (2013), doi 10.1007/s11044-013-9352-0. With `C·P = Q·R` and the last p
 //! columns of Q as Z, the reaction of a joint with rows X is unique iff `B_X = C_Xᵀ·Z_X = 0` (27).
-//! Here Z is an orthonormal basis of the left null space of the equilibrated C; it spans the same
-//! space, up to the scaling of rows.
+//! Here Z is an orthonormal basis of the left null space of the equilibrated C. This basis spans
+//! the same space, up to the scaling of rows.
 
 use linalg::{Matrix, PivotedQr};
 use rank::{Accuracy, ExactNullSpace, RankDecision, RankError};
@@ -44,7 +44,7 @@ pub use error::QueryError;
 #[derive(Clone, Debug)]
 pub struct Solvability {
     decision: RankDecision,
-    /// All rows with their null space.
+    /// All rows, and their null space.
     basis: Basis,
 }
 
@@ -61,8 +61,8 @@ impl Solvability {
     /// Works like [`Self::of`], for a matrix with exact entries: every verdict is exact and
     /// decided.
     ///
-    /// Tests for zero use arithmetic modulo primes. Margins are computed in `f64`. The true margin
-    /// may be smaller than a reported margin below 1e-15.
+    /// Tests for zero use arithmetic modulo primes. Margins are computed in `f64`. If a reported
+    /// margin is below 1e-15, the true margin may be smaller.
     ///
     /// # Errors
     /// Returns an error if an entry is not finite.
@@ -70,14 +70,14 @@ impl Solvability {
         Ok(Self::from_decision(c, rank::certify_exact(c)?))
     }
 
-    /// Uses a rank that has already been decided for this matrix, or for the double-double matrix
-    /// that was rounded to it.
+    /// Uses a rank that has already been decided. The rank must belong to this matrix, or to the
+    /// double-double matrix that was rounded to this matrix.
     ///
     /// # Panics
     /// Panics if the decision belongs to a matrix of another shape.
     #[must_use]
     pub fn from_decision(c: &Matrix, decision: RankDecision) -> Self {
-        // An exact decision always has a finite matrix.
+        // The matrix of an exact decision is always finite.
         let exact = decision.is_exact();
         let exact = exact.then(|| ExactNullSpace::new(c).ok()).flatten();
         let certificate = decision.evidence.certificate.as_ref();
@@ -145,7 +145,7 @@ impl Solvability {
         &self.basis.c
     }
 
-    /// Returns the verdict on the multiplier of one row: unique iff `Z_i = 0`.
+    /// Returns the verdict on the multiplier of one row. The multiplier is unique iff `Z_i = 0`.
     ///
     /// # Errors
     /// Returns an error if the row does not exist.
@@ -153,8 +153,9 @@ impl Solvability {
         self.basis.row(i)
     }
 
-    /// Returns the verdict on all multipliers of a group of rows: unique iff `Z_X = 0`. This
-    /// condition is stronger than that of [`Solvability::group`] if the rows depend on each other.
+    /// Returns the verdict on all multipliers of a group of rows. The multipliers are unique iff
+    /// `Z_X = 0`. If the rows depend on each other, this condition is stronger than the condition
+    /// of [`Solvability::group`].
     ///
     /// # Errors
     /// Returns an error if a row does not exist.
@@ -173,8 +174,8 @@ impl Solvability {
         self.basis.b_x(rows)
     }
 
-    /// Returns the verdict on the reaction of a group of rows: unique iff `B_X = 0`; the margin is
-    /// ‖B_X‖ (Frobenius).
+    /// Returns the verdict on the reaction of a group of rows. The reaction is unique iff `B_X =
+    /// 0`, and the margin is ‖B_X‖ (Frobenius).
     ///
     /// # Errors
     /// Returns an error if a row does not exist.
@@ -182,8 +183,9 @@ impl Solvability {
         self.basis.group(rows)
     }
 
-    /// Returns the verdict on a linear combination `ℓᵀ·λ` of all multipliers: unique iff
-    /// `ℓᵀ·Z = 0`. The margin is relative to ‖ℓ‖. Both are computed for equilibrated rows.
+    /// Returns the verdict on a linear combination `ℓᵀ·λ` of all multipliers. The combination is
+    /// unique iff `ℓᵀ·Z = 0`. The margin is relative to ‖ℓ‖. Both values are computed for
+    /// equilibrated rows.
     ///
     /// # Errors
     /// Returns an error if the number of coefficients is not m, or if a coefficient is not finite.
@@ -191,10 +193,10 @@ impl Solvability {
         self.basis.combination(l)
     }
 
-    /// Returns the verdict on component `k` of a reaction `W·λ_X`: unique iff row k of `W·Z_X` is
-    /// zero. The margin is relative to the largest row of W. A row of W that is only rounding
-    /// relative to the others counts as zero, unless the entries are exact. Column l of W belongs
-    /// to row l of the list.
+    /// Returns the verdict on component `k` of a reaction `W·λ_X`. The component is unique iff row
+    /// k of `W·Z_X` is zero. The margin is relative to the largest row of W. A row of W that is
+    /// only rounding relative to the other rows counts as zero, unless the entries are exact.
+    /// Column l of W belongs to row l of the list.
     ///
     /// # Errors
     /// Returns an error if a row or the component does not exist, if W does not have a column for
@@ -208,13 +210,13 @@ impl Solvability {
         self.basis.mapped(map, rows)?.component(k)
     }
 
-    /// Returns the directions in which a reaction is unique: a basis of the left null space of
-    /// `W·Z_X` for the map W (k × |X|) from multipliers to components. The directions are unit
-    /// vectors with k entries, the largest of which is positive.
+    /// Returns the directions in which a reaction is unique. The directions are a basis of the left
+    /// null space of `W·Z_X` for the map W (k × |X|) from multipliers to components. The directions
+    /// are unit vectors with k entries, the largest of which is positive.
     ///
     /// # Errors
-    /// Same errors as [`Solvability::component`]. The function also returns an error if the number
-    /// of directions is undecided.
+    /// Returns the same errors as [`Solvability::component`]. The function also returns an error if
+    /// the number of directions is undecided.
     pub fn unique_directions(
         &self,
         map: &Matrix,
@@ -224,8 +226,9 @@ impl Solvability {
     }
 }
 
-/// Returns an orthonormal basis of the span of dependencies, restricted to some of the rows, in
-/// equilibrated rows with these factors. Each column comes from the longest remaining dependency.
+/// Returns an orthonormal basis of the span of dependencies, restricted to some of the rows. The
+/// rows are equilibrated with these factors. Each column comes from the longest remaining
+/// dependency.
 pub(crate) fn orthonormal(
     dependencies: &[&[f64]],
     rows: &[usize],

@@ -1,5 +1,5 @@
-//! Solvability of a mechanism at one configuration: ranks, and a verdict for every joint, drive,
-//! row and direction.
+//! Solvability of a mechanism at one configuration: ranks, and a verdict for each joint, drive, row
+//! and direction.
 
 use linalg::Matrix;
 use model::{ConstraintId, Mechanism, Scratch, System};
@@ -16,7 +16,7 @@ use crate::verdict::Verdict;
 use crate::{explain, words};
 
 /// Returns the verdicts of a mechanism that is one part, at the configuration of the scratch. Φ and
-/// C have been evaluated there, and the rank has been decided.
+/// C must have been evaluated in the scratch, and the rank must have been decided.
 pub(crate) fn part_verdicts(
     mechanism: &Mechanism,
     s: &Scratch,
@@ -115,8 +115,8 @@ pub(crate) fn reaction(
         1 => directions,
         _ => readable(directions),
     };
-    // If the number of directions is undecided, no directions are returned. The verdicts above
-    // state that the number is undecided.
+    // If the number of directions is undecided, no directions are returned. The verdicts on the
+    // components state that this number is undecided.
     let unique_directions = match mapped.unique_directions() {
         Err(QueryError::Rank(_) | QueryError::Directions { .. }) => None,
         known => Some(told(known?)),
@@ -152,8 +152,8 @@ pub(crate) fn reaction(
 }
 
 /// Returns the components of a reaction that are not identically zero, as indices of
-/// [`model::SpaceKind::components`], and the map from the multipliers of its rows to these
-/// components.
+/// [`model::SpaceKind::components`]. Also returns the map from the multipliers of the rows of the
+/// reaction to these components.
 pub(crate) fn component_map(
     mechanism: &Mechanism,
     id: ConstraintId,

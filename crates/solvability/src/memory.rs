@@ -12,30 +12,30 @@ use rank::SparsePattern;
 use crate::parts::parts;
 use crate::sparse::{blocks, rows_of, sketch_of};
 
-/// Estimated memory (bytes) of a mechanism with its ranks, independent rows and verdicts.
+/// Estimated memory (bytes) of a mechanism, its ranks, independent rows and verdicts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct VerdictMemory {
     /// Memory of the mechanism.
     pub mechanism: usize,
-    /// Additional memory during the decision: the largest parts, one on each thread.
+    /// Additional memory during the decision. The largest parts need it, one on each thread.
     pub work: usize,
     /// Memory of the results after the decision: verdicts and their explanations.
     pub results: usize,
 }
 
 impl VerdictMemory {
-    /// Returns the maximum memory up to the results, given the additional memory that is needed at
-    /// the same time as the results.
+    /// Returns the maximum memory until the results exist. `besides` is the additional memory that
+    /// is needed at the same time as the results.
     #[must_use]
     pub fn most(self, besides: usize) -> usize {
         self.mechanism + self.work.max(self.results + besides)
     }
 }
 
-/// Estimates the memory of a mechanism with its ranks, independent rows and verdicts on this number
-/// of threads. The estimate is proportional to the numbers of its velocities, its joints, drives
-/// and couplings, its rows and their entries. The estimate also includes the matrices of the
-/// largest parts.
+/// Estimates the memory of a mechanism, its ranks, independent rows and verdicts on this number of
+/// threads. The estimate is proportional to the numbers of velocities, of joints, drives and
+/// couplings, and of rows and their entries. The estimate also includes the matrices of the largest
+/// parts.
 ///
 /// # Errors
 /// [`AnalysisError::Large`]: the rows are too densely connected for a sparse decision.

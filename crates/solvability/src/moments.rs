@@ -1,6 +1,6 @@
 //! Moments of reactions about points other than their reference point. If the force of a reaction
-//! is not unique, its moment may be unique about one point and not unique about another. In a
-//! spherical linkage, for example, it is unique about the centre.
+//! is not unique, the moment of the reaction may be unique about one point and not unique about
+//! another point. In a spherical linkage, for example, the moment is unique about the centre.
 
 use linalg::{Matrix, small_svd};
 use model::ConstraintId;
@@ -56,8 +56,8 @@ impl Configuration<'_> {
     }
 
     /// Returns the nearest point about which the moment of a reaction is unique, if the moment is
-    /// not unique about the reference point. Returns `None` if there is no such point nearby, or if
-    /// the force is unique and the point therefore has no influence.
+    /// not unique about the reference point. Returns `None` if there is no such point nearby. Also
+    /// returns `None` if the force is unique, because the point then has no influence.
     ///
     /// ```
     /// use joints::space3::{Axes, Revolute};
@@ -124,7 +124,7 @@ impl Configuration<'_> {
     }
 }
 
-/// Returns the smallest least-squares solution of the equations; `None` without a free force.
+/// Returns the smallest least-squares solution of the equations, or `None` without a free force.
 fn least(equations: &Matrix, right: &[f64]) -> Option<[f64; 3]> {
     if equations.nrows() < 3 {
         return None;

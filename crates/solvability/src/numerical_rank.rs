@@ -1,15 +1,15 @@
-//! Decides the rank of the intended mechanism. The data are uncertain by their rounding, or by a
+//! Decides the rank of the intended mechanism. The uncertainty of the data is their rounding, or a
 //! tolerance that the scene states. The rank is the lowest rank of all data within this
 //! uncertainty.
 //!
 //! | module | content |
 //! | --- | --- |
-//! | `matrix` | dimensionless C; forces and levers within their uncertainty are set to zero |
+//! | `matrix` | dimensionless C, in which forces and levers within their uncertainty are set to zero |
 //! | `reading` | the rank of such a matrix |
 //! | `share` | change of the data for a lower rank, as a fraction of their uncertainty |
 //! | `near` | this change in metres, and the lowest rank within a stated tolerance |
-//! | `pose` | how C changes with the data at one pose |
-//! | `support` | which rows certainly belong to a dependency |
+//! | `pose` | the changes of C with the data at one configuration |
+//! | `support` | the rows that certainly belong to a dependency |
 //! | `walk` | other configurations of the same mechanism |
 //! | `follow` | changes of configurations, and of the paths to them, with the data |
 //! | `cone` | the smallest change of data that satisfies equations |

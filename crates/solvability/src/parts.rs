@@ -1,15 +1,15 @@
 //! Parts of a mechanism that are analysed separately.
 //!
-//! Self-stresses exist only on cycles of the graph of bodies, ground and joints: every `z` with
+//! Self-stresses exist only on cycles of the graph of bodies, ground and joints. Every `z` with
 //! `Cᵀ·z = 0` is a sum of such vectors on single sets of [`rank::cycles`]. Therefore each set can
-//! be analysed as a separate mechanism with its own evidence. The redundancy of the whole is the
-//! sum of the redundancies of the sets, and no verdict depends on another set. The work is linear
-//! in the number of sets.
+//! be analysed as a separate mechanism with its own evidence. The redundancy of the whole mechanism
+//! is the sum of the redundancies of the sets, and no verdict depends on another set. The work is
+//! linear in the number of sets.
 //!
-//! Each part has its own size as unit of length, so margins do not depend on the length of the
-//! chain to which it belongs. The analysis of a part is in other modules.
+//! Each part has its own size as unit of length. Therefore margins do not depend on the length of
+//! the chain to which the part belongs. Other modules analyse the parts.
 //!
-//! A mechanism with at most `ONE_PART` rows is a single part, for any cycles.
+//! A mechanism with at most `ONE_PART` rows is a single part, even if it has several cycles.
 
 use crate::limits::{FIRST_NAMED, ONE_PART};
 use crate::pose::evaluated;
@@ -23,7 +23,7 @@ use rayon::prelude::*;
 use crate::freedoms::WithoutDrives;
 use crate::words;
 
-/// Which joints, bodies and rows of a mechanism belong to a part.
+/// The joints, bodies and rows of a mechanism that belong to a part.
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub enum Extent {
@@ -33,7 +33,7 @@ pub enum Extent {
     Places(Places),
 }
 
-/// Selects the numbers of the whole mechanism that belong to a part; `None` selects all.
+/// Selects those numbers of the whole mechanism that belong to a part; `None` selects all numbers.
 fn own<'a>(x: &'a [f64], places: Option<&[usize]>) -> Cow<'a, [f64]> {
     match places {
         None => Cow::Borrowed(x),
@@ -61,16 +61,16 @@ impl Extent {
         self.places().map_or(own, |p| p.rows[own])
     }
 
-    /// Returns the number of a row of the whole mechanism in the part; `None` if the row belongs to
-    /// another part.
+    /// Returns the number of a row of the whole mechanism in the part, or `None` if the row belongs
+    /// to another part.
     #[must_use]
     pub fn own_row(&self, row: usize) -> Option<usize> {
         self.places()
             .map_or(Some(row), |p| p.rows.binary_search(&row).ok())
     }
 
-    /// Returns the listed rows of the whole mechanism that belong to the part, numbered in the
-    /// part, in the order of the list.
+    /// Returns those listed rows of the whole mechanism that belong to the part. The rows are
+    /// numbered in the part and have the order of the list.
     pub(crate) fn own_rows(&self, listed: &ListedRows<'_>) -> Vec<usize> {
         match self.places() {
             None => listed.rows.to_vec(),
@@ -78,28 +78,28 @@ impl Extent {
         }
     }
 
-    /// Returns the number of a joint or drive of the part in the whole mechanism.
+    /// Converts the number of a joint or drive from the part to the whole mechanism.
     #[must_use]
     pub fn group(&self, own: usize) -> usize {
         self.places().map_or(own, |p| p.groups[own])
     }
 
-    /// Returns the number of a joint or drive of the whole mechanism in the part; `None` if it
-    /// belongs to another part.
+    /// Converts the number of a joint or drive from the whole mechanism to the part. Returns `None`
+    /// if the joint or drive belongs to another part.
     #[must_use]
     pub fn own_group(&self, group: usize) -> Option<usize> {
         self.places()
             .map_or(Some(group), |p| p.groups.binary_search(&group).ok())
     }
 
-    /// Returns the joints and drives of the whole mechanism that belong to the part; empty if the
-    /// part is the whole mechanism.
+    /// Returns the joints and drives of the whole mechanism that belong to the part. The list is
+    /// empty if the part is the whole mechanism.
     pub(crate) fn groups(&self) -> &[usize] {
         self.places().map_or(&[], |p| &p.groups)
     }
 
-    /// Returns the number of a body of the whole mechanism in the part; `None` if no joint of the
-    /// part acts on it.
+    /// Returns the number of a body of the whole mechanism in the part, or `None` if no joint of
+    /// the part acts on the body.
     #[must_use]
     pub fn own_body(&self, body: usize) -> Option<usize> {
         self.places()
@@ -118,13 +118,13 @@ impl Extent {
         own(q, self.places().map(|p| &p.coordinates[..]))
     }
 
-    /// Returns the velocities of the part, or other values with one number for each velocity.
+    /// Returns the velocities of the part, or other values of which there is one for each velocity.
     #[must_use]
     pub fn velocities<'a>(&self, v: &'a [f64]) -> Cow<'a, [f64]> {
         own(v, self.places().map(|p| &p.velocities[..]))
     }
 
-    /// Returns the multipliers of the part, or other values with one number for each row.
+    /// Returns the multipliers of the part, or other values of which there is one for each row.
     #[must_use]
     pub fn of_rows<'a>(&self, lambda: &'a [f64]) -> Cow<'a, [f64]> {
         own(lambda, self.places().map(|p| &p.rows[..]))
@@ -140,7 +140,7 @@ impl Extent {
         all
     }
 
-    /// Returns the velocities of the whole mechanism after those of the part are replaced.
+    /// Returns the velocities of the whole mechanism after the velocities of the part are replaced.
     pub(crate) fn put_velocities(&self, own: &[f64], mut all: Vec<f64>) -> Vec<f64> {
         match self.places() {
             None => own.to_vec(),
@@ -162,7 +162,7 @@ impl Extent {
         }
     }
 
-    /// Returns the name of the part: the names of its first joints and drives.
+    /// Returns the name of the part, which consists of the names of its first joints and drives.
     pub(crate) fn name(&self, whole: &Mechanism) -> String {
         let groups = &whole.layout().groups;
         let count = self.places().map_or(groups.len(), |p| p.groups.len());
@@ -177,8 +177,9 @@ impl Extent {
     }
 }
 
-/// Rows of the whole mechanism in the order in which a caller lists them, indexed by row number.
-/// With this index, each of many parts finds its own rows without a search through the whole list.
+/// Rows of the whole mechanism, indexed by row number and by their position in the list of the
+/// caller. With this index, the rows of each of many parts are found without a search through the
+/// whole list.
 pub(crate) struct ListedRows<'a> {
     rows: &'a [usize],
     /// Pairs of row and index in the list, ascending.
@@ -193,8 +194,8 @@ impl<'a> ListedRows<'a> {
         Self { rows, by_number }
     }
 
-    /// Returns indices into `own` (ascending) of the listed rows, in the order of the list and
-    /// repeated if the list repeats them.
+    /// Returns indices into `own` (ascending) of the listed rows. The indices have the order of the
+    /// list and are repeated if the list repeats the rows.
     fn among(&self, own: &[usize]) -> Vec<usize> {
         let mut found: Vec<(usize, usize)> = Vec::new();
         for (k, row) in own.iter().enumerate() {
@@ -222,12 +223,12 @@ pub struct PartAnalysis {
     pub rank_nonholonomic: usize,
     /// Rank and redundancy of the rows without drives. `None` if the part has no drives.
     pub without_drives: Option<WithoutDrives>,
-    /// Rank and independent (kept) rows of C; rows are numbered in the part.
+    /// Rank and independent (kept) rows of C. The rows are numbered in the part.
     pub decision: PartDecision,
     /// The proof of the rank. The proof is also present if the caller chose the redundant rows.
     pub certificate: Option<Certificate>,
-    /// Independent rows that are nearly dependent. `None` for parts of a mechanism that are decided
-    /// with sparse matrices.
+    /// Independent rows that are nearly dependent. `None` for parts that are decided with sparse
+    /// matrices.
     pub nearly_redundant: Option<NearlyRedundant>,
 }
 
@@ -274,7 +275,7 @@ impl PartDecision {
         }
     }
 
-    /// Returns whether the rank is decided, or otherwise the reason.
+    /// Returns whether the rank is decided, or the reason why it is undecided.
     #[must_use]
     pub fn status(&self) -> RankStatus {
         match self {
@@ -292,7 +293,7 @@ impl PartDecision {
         }
     }
 
-    /// Returns the decision with all dependencies; `None` if the part was decided with sparse
+    /// Returns the decision with all dependencies, or `None` if the part was decided with sparse
     /// matrices.
     #[must_use]
     pub fn dense(&self) -> Option<&RankDecision> {
@@ -327,8 +328,8 @@ impl PartAnalysis {
     }
 }
 
-/// Returns sets of joints and drives on common cycles, at the configuration of the scratch, in
-/// which C has been evaluated. Each set can be analysed separately.
+/// Returns sets of joints and drives on common cycles, at the configuration of the scratch. C must
+/// have been evaluated in the scratch. Each set can be analysed separately.
 #[must_use]
 pub fn parts(mechanism: &Mechanism, s: &Scratch) -> Vec<Vec<usize>> {
     let ground = mechanism.bodies().len();
@@ -364,7 +365,7 @@ impl Partition {
         }
     }
 
-    /// Returns the parts at the configuration of the scratch, where C has been evaluated.
+    /// Returns the parts at the configuration of the scratch, in which C must have been evaluated.
     pub(crate) fn at(mechanism: &Mechanism, s: &Scratch) -> Self {
         if mechanism.layout().rows() <= ONE_PART {
             Self::One
@@ -386,8 +387,9 @@ impl Partition {
         }
     }
 
-    /// Applies `f` to each part, ordered by their first joints, on the `rayon` thread pool of the
-    /// caller. If several parts return errors, the function returns the error of the first part.
+    /// Applies `f` to each part on the `rayon` thread pool of the caller. The parts are ordered by
+    /// their first joints. If several parts return errors, the function returns the error of the
+    /// first of these parts.
     pub(crate) fn map<T: Send, E: Send>(
         &self,
         mechanism: &Mechanism,
@@ -407,7 +409,7 @@ impl Partition {
 }
 
 /// Returns the parts of a mechanism at time t and coordinates q that contain dropped rows. Each
-/// part is a mechanism with the number of these rows.
+/// item is a part as a mechanism, and the number of its dropped rows.
 pub(crate) fn open_parts<'m>(
     mechanism: &'m Mechanism,
     (t, q): (f64, &[f64]),
@@ -450,8 +452,8 @@ mod tests {
         }
     }
 
-    /// The result equals that of a search through the whole list: the order is that of the list,
-    /// and repeated rows are repeated.
+    /// The result equals that of a search through the whole list. The rows have the order of the
+    /// list, and repeated rows are repeated.
     #[test]
     fn listed_rows_of_a_part() {
         let listed = [9, 4, 7, 4, 30, 0];

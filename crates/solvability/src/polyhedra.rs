@@ -1,5 +1,5 @@
-//! Linear programs, polyhedra, and complementarity: the numerical part of questions about supports
-//! that only push and contacts that grip.
+//! Linear programs, polyhedra, and complementarity. The module is the numerical part of questions
+//! about supports that only push and contacts with friction.
 //!
 //! All reactions that satisfy the equations of motion are λ₀ + Z·y. Each support that only pushes
 //! restricts the free numbers y to a half space.
@@ -7,8 +7,8 @@
 //! | module | content |
 //! | --- | --- |
 //! | `simplex` | linear programs with dense data |
-//! | `polyhedron` | the admissible y, and the range of a number over them |
-//! | `complementarity` | accelerations if supports lift |
+//! | `polyhedron` | the admissible y, and the range of a number over the admissible y |
+//! | `complementarity` | accelerations of supports that lift |
 
 pub(crate) mod complementarity;
 pub(crate) mod polyhedron;
@@ -19,16 +19,16 @@ pub(crate) mod tests;
 
 use linalg::{Dd, Lu, kernels};
 
-/// Reason why a question has no certain answer.
+/// Reason why a question does not have a certain answer.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum Unclear {
     /// The length of a row is neither zero nor clearly not zero.
     Row(f64),
-    /// A component of one row along another one is neither zero nor clearly not zero, relative to
+    /// A component of one row along another row is neither zero nor clearly not zero, relative to
     /// both rows.
     Component(f64),
-    /// A row is neither a combination of the other rows with weights ≥ 0 nor clearly different. The
-    /// number is the distance, as a share of the row.
+    /// A row is neither a combination of the other rows with weights ≥ 0 nor clearly different from
+    /// every such combination. The number is the distance, as a share of the row.
     Distance(f64),
     /// The depth of the polyhedron is neither zero nor clearly negative.
     Depth(f64),
@@ -48,7 +48,7 @@ fn exact_dot(x: &[f64], y: &[f64]) -> Dd {
     products.fold(Dd::ZERO, |sum, product| sum + product)
 }
 
-/// Bound on the rounding errors of a scalar product.
+/// Returns a bound on the rounding errors of a scalar product.
 fn rounding_of_dot(x: &[f64], y: &[f64]) -> f64 {
     x.len() as f64 * f64::EPSILON * kernels::norm(x) * kernels::norm(y)
 }

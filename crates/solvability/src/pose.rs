@@ -25,16 +25,16 @@ pub(crate) fn uncertainty(mechanism: &Mechanism, s: &Scratch, size: f64) -> Matr
     )
 }
 
-/// Returns the velocities with the dimensionless value 1. For translations this is 1 m/s. For
-/// rotations it is the rate that moves a point at the size of the mechanism by about as much,
-/// rounded to a power of two.
+/// Returns the velocities with the dimensionless value 1. For translations the velocity is 1 m/s.
+/// For rotations it is the rate that moves a point at a distance of the size of the mechanism by
+/// about 1 m/s, rounded to a power of two.
 pub(crate) fn velocity_units(mechanism: &Mechanism, size: f64) -> Vec<f64> {
     let scaling = mechanism.layout().dimension_scaling(size);
     scaling.cols.iter().map(|&e| f64::from(e).exp2()).collect()
 }
 
-/// Decides the rank of C at the configuration of the scratch, in which Φ and C have been evaluated
-/// at coordinates q.
+/// Decides the rank of C at the configuration of the scratch. Φ and C must have been evaluated in
+/// the scratch at coordinates q.
 ///
 /// # Errors
 /// Returns an error if C is not finite.
@@ -51,8 +51,8 @@ pub fn decide(
     .map_err(|source| AnalysisError::Rank { time: s.t, source })
 }
 
-/// Works like [`decide`], only for the holonomic rows: the result shows which rows of Φ constrain
-/// the configuration.
+/// Works like [`decide`], but only for the holonomic rows. The result shows which rows of Φ
+/// constrain the configuration.
 ///
 /// # Errors
 /// Returns an error if C is not finite.
@@ -84,8 +84,8 @@ fn holonomic(mechanism: &Mechanism, s: &Scratch, q: &[f64]) -> (Matrix, Matrix) 
     (phi_q, known)
 }
 
-/// Works like [`decide`], with given redundant rows (`dropped`, from 0). Their number must equal
-/// the redundancy, and the other rows must be independent.
+/// Works like [`decide`], with given redundant rows (`dropped`, from 0). The number of these rows
+/// must equal the redundancy, and the other rows must be independent.
 ///
 /// # Errors
 /// Returns an error if the given rows do not satisfy these conditions, or if C is not finite.

@@ -61,7 +61,7 @@ pub struct Questions<'a> {
     mechanism: &'a Mechanism,
     q: Vec<f64>,
     analysis: Arc<Analysis>,
-    /// Configuration of each part, created on first use.
+    /// Configuration of each part, created at the first request.
     configurations: Vec<OnceLock<Configuration<'a>>>,
     /// The part of each joint and drive.
     part_of: Vec<usize>,
@@ -116,8 +116,8 @@ impl<'a> Questions<'a> {
         Ok(cell.get_or_init(|| made))
     }
 
-    /// Returns the search for replacements of joints; `None` if the mechanism was not analysed as
-    /// one part.
+    /// Returns the search for replacements of joints, or `None` if the mechanism was not analysed
+    /// as one part.
     ///
     /// # Errors
     /// [`RequestError::Large`]
@@ -194,8 +194,8 @@ impl<'a> Questions<'a> {
         })
     }
 
-    /// Returns the reference point for the torques T of a sum of wrenches or a resultant; checks
-    /// the bodies.
+    /// Returns the reference point for the torques T of a sum of wrenches or a resultant. Also
+    /// checks the bodies.
     fn about(&self, group: &Group) -> Result<Option<[f64; 3]>, RequestError> {
         match group {
             Group::WrenchSum(terms) => {
@@ -216,12 +216,12 @@ impl<'a> Questions<'a> {
         }
     }
 
-    /// Returns the verdict on a group: unique iff its contribution from each part is unique. The
-    /// margin is the largest one of the parts.
+    /// Returns the verdict on a group. The group is unique iff its contribution from each part is
+    /// unique. The margin is the largest margin of the parts.
     ///
     /// # Errors
-    /// Same errors as [`crate::judge_groups`], and [`RequestError::Large`]: the group involves a
-    /// part with too many rows.
+    /// Returns the same errors as [`crate::judge_groups`], and [`RequestError::Large`] if the group
+    /// involves a part with too many rows.
     pub fn group(&self, group: &Group) -> Result<GroupVerdict, RequestError> {
         let about = self.about(group)?;
         let judged = self.shares(group)?.into_iter();
@@ -248,7 +248,7 @@ impl<'a> Questions<'a> {
     }
 
     /// Returns the verdict on a group without reactions. The resultant on bodies without joints is
-    /// unique; any other empty group is an error.
+    /// unique. Any other empty group is an error.
     fn of_nothing(
         &self,
         group: &Group,
@@ -276,7 +276,7 @@ impl<'a> Questions<'a> {
     /// solutions are omitted. A group of several separate reactions has no numbers.
     ///
     /// # Errors
-    /// Same errors as [`Questions::group`].
+    /// Returns the same errors as [`Questions::group`].
     pub fn determined(&self, group: &Group, solution: &Solution) -> Result<Numbers, RequestError> {
         let lambda = solution.multipliers.as_chosen();
         self.numbers(group, |k, configuration, form| {
@@ -294,7 +294,7 @@ impl<'a> Questions<'a> {
     /// verdicts. Values that differ between the solutions are omitted.
     ///
     /// # Errors
-    /// Same errors as [`Questions::group`].
+    /// Returns the same errors as [`Questions::group`].
     pub fn determined_reactions(
         &self,
         solution: &Solution,
@@ -325,7 +325,7 @@ impl<'a> Questions<'a> {
     /// Returns all numbers of a group for a given choice.
     ///
     /// # Errors
-    /// Same errors as [`Questions::group`].
+    /// Returns the same errors as [`Questions::group`].
     pub fn chosen(
         &self,
         group: &Group,
@@ -354,8 +354,8 @@ impl<'a> Questions<'a> {
         Ok(sums)
     }
 
-    /// Returns the contribution of each part to the numbers of a group: the part, the name and the
-    /// number.
+    /// Returns the contribution of each part to the numbers of a group. Each item contains the
+    /// part, the name and the number.
     pub(crate) fn forms(
         &self,
         group: &Group,
@@ -393,7 +393,7 @@ impl<'a> Questions<'a> {
     /// Returns the verdict on the moment of a reaction about a point (m, ground axes).
     ///
     /// # Errors
-    /// Same errors as [`Configuration::moment`], and [`RequestError::Large`].
+    /// Returns the same errors as [`Configuration::moment`], and [`RequestError::Large`].
     pub fn moment(&self, id: ConstraintId, about: [f64; 3]) -> Result<MomentVerdict, RequestError> {
         let (k, own) = self.place(id)?;
         self.configuration(k)?.moment(own, about)
@@ -403,17 +403,18 @@ impl<'a> Questions<'a> {
     /// not unique about the reference point of the joint.
     ///
     /// # Errors
-    /// Same errors as [`Configuration::centre_of_moments`], and [`RequestError::Large`].
+    /// Returns the same errors as [`Configuration::centre_of_moments`], and
+    /// [`RequestError::Large`].
     pub fn centre_of_moments(&self, id: ConstraintId) -> Result<Option<[f64; 3]>, RequestError> {
         let (k, own) = self.place(id)?;
         self.configuration(k)?.centre_of_moments(own)
     }
 
     /// Returns the distribution that a choice selects, starting from one solution. The choice is
-    /// applied in each part.
+    /// applied in each part separately.
     ///
     /// # Errors
-    /// Same errors as [`Configuration::distribute`], and [`RequestError::Large`].
+    /// Returns the same errors as [`Configuration::distribute`], and [`RequestError::Large`].
     pub fn distribute(
         &self,
         solution: &Solution,
@@ -463,7 +464,7 @@ impl<'a> Questions<'a> {
         Ok(found.without(&solution.no_finite))
     }
 
-    /// Checks that the number of listed rows in each part equals its redundancy.
+    /// Checks that the number of listed rows in each part equals the redundancy of the part.
     fn check_counts(&self, rows: &ListedRows<'_>) -> Result<(), ChoiceError> {
         for part in self.parts() {
             let (own, listed) = (part.decision.redundancy(), part.extent.own_rows(rows).len());
@@ -480,7 +481,7 @@ impl<'a> Questions<'a> {
         Ok(())
     }
 
-    /// Returns the joints and drives that share loads and have no compliance in a choice.
+    /// Returns the joints and drives that share loads but have no compliance in a choice.
     fn rigid(&self, choice: &Choice) -> Result<Vec<ConstraintId>, RequestError> {
         let mut rigid = Vec::new();
         for (k, part) in self.parts().iter().enumerate() {

@@ -14,7 +14,7 @@ pub struct RowDecision {
     pub kept: Vec<usize>,
     /// The other rows, ascending.
     pub dropped: Vec<usize>,
-    /// Whether the rank is decided, or otherwise the reason.
+    /// Whether the rank is decided, or the reason why it is undecided.
     pub status: RankStatus,
     /// Largest coefficient of a dependency that counts as zero.
     pub support_tolerance: f64,
@@ -39,7 +39,8 @@ impl RowDecision {
         }
     }
 
-    /// Adds the decision of a part; `row` maps a row of the part to one of the whole.
+    /// Adds the decision of a part. The function `row` maps a row of the part to a row of the whole
+    /// mechanism.
     pub(crate) fn add(&mut self, part: Self, row: impl Fn(usize) -> usize) {
         self.rank += part.rank;
         self.redundancy += part.redundancy;
@@ -51,8 +52,8 @@ impl RowDecision {
         self.support_tolerance = self.support_tolerance.max(part.support_tolerance);
     }
 
-    /// Returns the decision restricted to some rows (ascending) on which no other row depends: rows
-    /// of bodies that are not connected to other bodies.
+    /// Returns the decision restricted to some rows (ascending). No other row may depend on these
+    /// rows; they are rows of bodies that are not connected to other bodies.
     #[must_use]
     pub fn of_rows(&self, rows: &[usize]) -> Self {
         let own = |all: &[usize]| -> Vec<usize> {

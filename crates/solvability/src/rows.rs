@@ -1,6 +1,6 @@
 //! Independent rows of C and of Φq alone for a simulation, and the consistency of the other rows
-//! with them. At the start, the rows are those of the certificate. During the motion, other rows
-//! are chosen in `f64` at the same rank.
+//! with the independent rows. At the start, the independent rows are those of the certificate.
+//! During the motion, other rows are chosen in `f64` at the same rank.
 
 use crate::error::AnalysisError;
 use crate::limits::{MOTION_CLEARANCE, ONE_ROUNDING, ROWS_MAX, SPARSE_FROM};
@@ -25,8 +25,8 @@ use crate::state::{StateError, check, check_configuration};
 /// verdicts and the texts all use these decisions.
 #[derive(Clone, Debug)]
 pub struct Rows {
-    /// Decision on all rows of C. It may be undecided although the rank is certified, if the matrix
-    /// is too close to another rank for a simulation in `f64`.
+    /// Decision on all rows of C. The decision may be undecided although the rank is certified. The
+    /// decision is undecided if the matrix is too close to another rank for a simulation in `f64`.
     pub all: RowDecision,
     /// Decision on the rows of Φq alone.
     pub holonomic: RowDecision,
@@ -39,10 +39,10 @@ pub(crate) struct DecidedPart {
     pub(crate) extent: Extent,
     all: RowDecision,
     holonomic: RowDecision,
-    /// Certified decisions on all rows and on the holonomic rows; `None` in a part that is decided
+    /// Certified decisions on all rows and on the holonomic rows. `None` in a part that is decided
     /// with sparse matrices.
     pub(crate) certified: Option<Box<[RankDecision; 2]>>,
-    /// C at a configuration refined in double-double, if it was refined.
+    /// C at a configuration refined in double-double. `None` if it was not refined.
     pub(crate) refined: Option<DdMatrix>,
 }
 
@@ -82,9 +82,8 @@ impl DecidedPart {
     }
 }
 
-/// Returns the certified decisions, as far as they are valid for `f64` numbers at the configuration
-/// of the scratch. Velocities and residuals of a motion are accurate to the rounding of its
-/// coordinates.
+/// Returns the certified decisions if they are valid for `f64` numbers at the configuration of the
+/// scratch. Velocities and residuals of a motion are accurate to the rounding of its coordinates.
 fn in_double(
     certified: &[RankDecision; 2],
     part: &Mechanism,
@@ -97,7 +96,7 @@ fn in_double(
         let known = ONE_ROUNDING * decision.scaling.apply(&known.select_rows(&rows)).max_abs();
         let entries = (rows.len() * decision.scaling.cols.len()) as f64;
         let tolerance = rank::NOISE_FACTOR * known.max(f64::EPSILON * entries.sqrt());
-        // The rank is that of the certificate, but `f64` may be too inaccurate for a simulation
+        // The rank is the rank of the certificate, but `f64` may be too inaccurate for a simulation
         // with this rank.
         let required = (MOTION_CLEARANCE * tolerance).max(NEARLY_SINGULAR);
         let sigma = decision.evidence.sigma_r;
@@ -130,7 +129,7 @@ fn in_double(
 /// Decides the rows at time t and coordinates q, which satisfy the constraints.
 ///
 /// # Errors
-/// Same errors as [`crate::analyse`].
+/// Returns the same errors as [`crate::analyse`].
 pub fn rows(mechanism: &Mechanism, t: f64, q: &[f64]) -> Result<Rows, AnalysisError> {
     check_configuration(mechanism, t, q)?;
     let parts = Partition::of(mechanism, t, q).map(mechanism, |part, extent| {
@@ -175,7 +174,7 @@ pub fn decide_holonomic_rows(
     of_small_and_large(mechanism, s, q, decide_holonomic, |layout| layout.m)
 }
 
-/// Decides small parts by `small`, and the first rows of large parts with sparse matrices.
+/// Decides small parts with `small`, and the first rows of large parts with sparse matrices.
 fn of_small_and_large(
     mechanism: &Mechanism,
     s: &Scratch,
@@ -195,7 +194,7 @@ fn of_small_and_large(
 /// Returns rank and independent rows of C with the given redundant rows (`dropped`, from 0).
 ///
 /// # Errors
-/// Same errors as [`decide_dropping`].
+/// Returns the same errors as [`decide_dropping`].
 pub fn decide_rows_dropping(
     mechanism: &Mechanism,
     s: &Scratch,
@@ -220,12 +219,12 @@ pub fn decide_rows_dropping(
 }
 
 /// Returns independent rows among the first `count` rows, for a rank that was decided at the start.
-/// Within a stated tolerance, more rows may be redundant than the matrix shows. The caller passes
-/// the redundant rows in `dropped`, or the function chooses them. The function does not support
+/// Within a stated tolerance, more rows may be redundant than in the matrix. The caller passes the
+/// redundant rows in `dropped`; otherwise the function chooses them. The function does not support
 /// sparse matrices.
 ///
 /// # Errors
-/// Same errors as [`decide_dropping`].
+/// Returns the same errors as [`decide_dropping`].
 pub fn rows_of_rank(
     mechanism: &Mechanism,
     s: &Scratch,
@@ -236,11 +235,11 @@ pub fn rows_of_rank(
     Ok((&decide_of_rank(mechanism, s, q, count_and_rank, dropped)?).into())
 }
 
-/// Works like [`rows_of_rank`], with the dependencies of the redundant rows: the combinations of
-/// independent rows that are nearest to them.
+/// Works like [`rows_of_rank`], and also returns the dependencies of the redundant rows. Each
+/// dependency is the nearest combination of independent rows.
 ///
 /// # Errors
-/// Same errors as [`decide_dropping`].
+/// Returns the same errors as [`decide_dropping`].
 pub fn decide_of_rank(
     mechanism: &Mechanism,
     s: &Scratch,
@@ -259,8 +258,8 @@ pub fn decide_of_rank(
 }
 
 /// Converts an error with rows of one part to the numbers of the whole mechanism. If the number of
-/// dropped rows equals the redundancy of the whole mechanism, but differs from that of a part, the
-/// kept rows are dependent.
+/// dropped rows equals the redundancy of the whole mechanism, but differs from the redundancy of a
+/// part, the kept rows are dependent.
 pub(crate) fn told_of_whole(
     error: KeptRowsError,
     dropped: &[usize],
@@ -288,7 +287,7 @@ pub(crate) fn told_of_whole(
     }
 }
 
-/// Merges the decisions of all parts; each part is decided from its mechanism, scratch and
+/// Merges the decisions of all parts. Each part is decided from its mechanism, scratch and
 /// coordinates.
 fn of_parts<E: Send>(
     mechanism: &Mechanism,
@@ -315,15 +314,15 @@ fn of_parts<E: Send>(
 }
 
 impl Rows {
-    /// Returns the certified decision on all rows with all dependencies; `None` if they were
-    /// decided in several parts, or with sparse matrices.
+    /// Returns the certified decision on all rows with all dependencies. Returns `None` if the rows
+    /// were decided in several parts, or with sparse matrices.
     #[must_use]
     pub fn whole(&self) -> Option<&RankDecision> {
         let one = self.parts.first().filter(|one| one.extent.is_whole())?;
         one.certified.as_ref().map(|both| &both[0])
     }
 
-    /// Returns kept rows that cannot be distinguished from dependent rows in `f64`; the direction
+    /// Returns kept rows that cannot be distinguished from dependent rows in `f64`. The direction
     /// covers all rows. See [`inseparable`].
     #[must_use]
     pub fn inseparable(&self, mechanism: &Mechanism, t: f64, q: &[f64]) -> Option<NearlyRedundant> {
@@ -343,7 +342,7 @@ impl Rows {
     }
 
     /// Returns whether the rank of all rows is decided, possibly only by a certificate. The kept
-    /// rows are then independent, even if `f64` cannot show it.
+    /// rows are then independent, even if this cannot be shown in `f64`.
     #[must_use]
     pub fn are_certified(&self) -> bool {
         self.parts.iter().all(|part| match &part.certified {
@@ -352,11 +351,11 @@ impl Rows {
         })
     }
 
-    /// Returns redundant rows that contradict each other, the largest contradiction of a part
+    /// Returns redundant rows that contradict each other. The largest contradiction of a part comes
     /// first. See [`contradictions`].
     ///
     /// # Errors
-    /// Same errors as [`contradictions`].
+    /// Returns the same errors as [`contradictions`].
     pub fn contradictions(
         &self,
         mechanism: &Mechanism,

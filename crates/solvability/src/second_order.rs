@@ -1,11 +1,13 @@
-//! Decides whether the motion is unique at a configuration where the rank drops. There, more
-//! velocities satisfy `C·v = b` than elsewhere, but a motion with such a velocity requires
-//! accelerations: `z·Γ(v) = 0` for every z of the left null space. This applies to self-stresses
-//! that exist everywhere and to new ones. These are quadratic equations in the velocities, and the
-//! motion through the point solves them.
+//! Decides whether the motion is unique at a configuration at which the rank drops. At such a
+//! configuration, more velocities satisfy `C·v = b` than at other configurations. However, a motion
+//! with such a velocity requires accelerations: `z·Γ(v) = 0` for every z of the left null space.
+//! This condition applies to self-stresses that exist at all configurations and to new
+//! self-stresses. The conditions are quadratic equations in the velocities, and the motion through
+//! the point satisfies them.
 //!
-//! If there is no other solution, the new motions are blocked at second order. If there is one, the
-//! motion branches. If second order does not decide, the result is undecided.
+//! If there is no other solution, the new motions are blocked at second order. If there is another
+//! solution, the motion branches. If the second order is not sufficient for a decision, the result
+//! is undecided.
 //!
 //! The same equations restrict the free velocities of a mechanism whose functions of time are
 //! locked ([`restrictions()`]). A locked drive is then a constraint like any other.
@@ -34,22 +36,22 @@ pub use restrictions::{RestrictedVelocities, Restrictions, SecondOrder};
 pub use undetermined::SecondOrderDoubt;
 pub use zeros::{CommonZero, common_zero};
 
-/// How a motion continues at a configuration at which the rank drops.
+/// The possible continuations of a motion at a configuration at which the rank drops.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub enum Continuation {
-    /// No other velocity is compatible: the new motions are blocked at second order.
+    /// No other velocity is compatible. The new motions are blocked at second order.
     Unique,
-    /// Other velocities are compatible to second order: the constraints do not determine on which
+    /// Other velocities are compatible to second order. The constraints do not determine on which
     /// branch the mechanism continues.
     Bifurcation {
         /// Velocities of other branches, n_v values each. Without drives, the new motions are as
         /// fast as the given motion and may be reversed. If a branch has several degrees of
-        /// freedom, these are examples.
+        /// freedom, the listed velocities are examples.
         branches: Vec<Vec<f64>>,
     },
-    /// The conditions of second order do not decide whether a motion exists.
+    /// The conditions of second order are not sufficient to decide whether a motion exists.
     Undetermined(SecondOrderDoubt),
 }
 
@@ -79,8 +81,8 @@ impl std::fmt::Display for Continuation {
 /// `C·v = b`. `decision` is the rank at this configuration.
 ///
 /// `regular` (n_v × k) contains the velocities `w` with `C·w = 0` that are also possible at
-/// neighbouring configurations. It is the column v for a mechanism with one degree of freedom and
-/// without drives. It has no column for a driven mechanism without freedom.
+/// neighbouring configurations. For a mechanism with one degree of freedom and without drives, it
+/// consists of the column v. For a driven mechanism without freedom, it has no column.
 ///
 /// # Errors
 /// Returns an error if the state has the wrong number of values, or if a value is not finite.
@@ -116,7 +118,7 @@ pub fn second_order(
     })
 }
 
-/// Returns whether the forms exclude every other velocity.
+/// Returns whether the quadratic forms exclude every other velocity.
 fn is_unique(forms: &Forms, mechanism: &Mechanism, q: &[f64]) -> bool {
     match (forms.x(), forms.y()) {
         (_, 0) => true,
@@ -125,11 +127,11 @@ fn is_unique(forms: &Forms, mechanism: &Mechanism, q: &[f64]) -> bool {
     }
 }
 
-/// Returns the second-order restrictions on the velocities with `C·v = 0` while functions of time
-/// are locked. A locked drive is a row like any other.
+/// Returns the second-order restrictions on the velocities with `C·v = 0` if functions of time are
+/// locked. A locked drive is a row like any other row.
 ///
-/// Rows that are redundant only within a stated tolerance impose no restriction within it. If the
-/// rank is undecided, there is no restriction, either.
+/// Rows that are redundant only within a stated tolerance do not restrict motions within this
+/// tolerance. If the rank is undecided, there are no restrictions.
 ///
 /// # Errors
 /// Returns an error if the configuration has the wrong number of values, or if a value is not
@@ -163,12 +165,13 @@ pub fn restrictions(
     })
 }
 
-/// Returns whether the mechanism cannot move although C leaves velocities free, while functions of
-/// time are locked. If so, second order excludes every velocity with `C·v = 0`, so its mobility
-/// exists only to first order. `None` if second order does not decide, or the rank is undecided.
+/// Returns whether the mechanism cannot move although C leaves velocities free, if functions of
+/// time are locked. In this case, every velocity with `C·v = 0` is excluded at second order, and
+/// the mobility exists only to first order. Returns `None` if the second order is not sufficient
+/// for a decision, or if the rank is undecided.
 ///
 /// # Errors
-/// Same errors as [`restrictions()`].
+/// Returns the same errors as [`restrictions()`].
 pub fn is_locked(
     mechanism: &Mechanism,
     t: f64,
@@ -179,12 +182,12 @@ pub fn is_locked(
     Ok(found.exclude_all().filter(|_| decision.is_decided()))
 }
 
-/// Returns velocities with `C·v = 0` that second order excludes while functions of time are locked,
-/// n_v values each. In dimensionless form, they are orthogonal to the velocities that no form
-/// contains. The list is empty if second order does not decide.
+/// Returns velocities with `C·v = 0` that are excluded at second order if functions of time are
+/// locked, n_v values each. In dimensionless form, they are orthogonal to the velocities that no
+/// quadratic form contains. The list is empty if the second order is not sufficient for a decision.
 ///
 /// # Errors
-/// Same errors as [`restrictions()`].
+/// Returns the same errors as [`restrictions()`].
 pub fn blocked_velocities(
     mechanism: &Mechanism,
     t: f64,
@@ -194,10 +197,10 @@ pub fn blocked_velocities(
     Ok(restrictions(mechanism, t, q, decision)?.velocities(SecondOrder::Blocked))
 }
 
-/// Returns whether second order can exclude velocities at all.
+/// Returns whether velocities can be excluded at second order.
 fn may_block(mechanism: &Mechanism, decision: &RankDecision) -> bool {
     let has_freedom = decision.is_decided() && decision.rank < mechanism.layout().n_v;
-    // Rows that are redundant only within a tolerance block no motion within it.
+    // Rows that are redundant only within a tolerance do not block motions within this tolerance.
     let certificate = decision.evidence.certificate.as_ref();
     let is_within = certificate.is_some_and(|c| c.grounds == Grounds::WithinTolerance);
     has_freedom && decision.redundancy > 0 && !is_within

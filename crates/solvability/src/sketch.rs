@@ -1,6 +1,6 @@
 //! Spatial mechanisms for tests. Bodies and joints are described in ground coordinates of a home
-//! pose, from which the whole mechanism is moved. Body frames are rotated and have an offset from
-//! the centre of mass.
+//! pose. The whole mechanism is then moved to another pose. Body frames are rotated and have an
+//! offset from the centre of mass.
 
 use joints::space3::{Axes, Cylindrical, Direction, Planar, Pose, Revolute, Spherical};
 use joints::space3::{Distance, GroundPlane, PointOnPlane, Translational, Wheel};
@@ -160,7 +160,7 @@ impl Sketch {
     }
 }
 
-/// Returns a door on hinges of these kinds along z.
+/// Returns a door with hinges of these kinds along z.
 pub(crate) fn door(kinds: &[Kind], moved: Pose) -> Sketch {
     let mut s = Sketch::at(moved);
     let door = s.body("door", [0.5, 0.1, 1.0]);
@@ -171,7 +171,7 @@ pub(crate) fn door(kinds: &[Kind], moved: Pose) -> Sketch {
     s
 }
 
-/// Returns a closed chain of three links; its joints are named in order.
+/// Returns a closed chain of three links. The joints are named in order.
 pub(crate) fn loop_of_four(
     names: [&str; 7],
     kinds: [Kind; 4],

@@ -11,15 +11,15 @@ use crate::error::AnalysisError;
 use crate::limits::SPARE_COMBINATIONS;
 use crate::matrices::{self, Basis};
 
-/// A sparse decision on rows of C, with these rows.
+/// A sparse decision on rows of C, and the decided rows.
 pub(crate) struct SparseDecision {
     /// Dimensionless rows.
     c: SparseMatrix,
     pub(crate) found: SparseRank,
 }
 
-/// Returns rank and kept rows of some rows of C (ascending) at the configuration of the scratch,
-/// where Φ and C have been evaluated at coordinates q.
+/// Returns rank and kept rows of some rows of C (ascending) at the configuration of the scratch. Φ
+/// and C must have been evaluated in the scratch at coordinates q.
 ///
 /// # Errors
 /// Returns an error if C is not finite, or too dense for a sparse decision.
@@ -69,7 +69,8 @@ impl SparseDecision {
         Ok(Self { c, found })
     }
 
-    /// Returns the basis for verdicts on a group of the decided rows, which uses only these rows.
+    /// Returns the basis for verdicts on a group of the decided rows. The basis uses only these
+    /// rows.
     pub(crate) fn basis(&self, own: &[usize]) -> Basis {
         let of_rows = own.iter().flat_map(|&i| self.c.row(i).0);
         let mut columns: Vec<usize> = of_rows.copied().collect();
@@ -95,7 +96,8 @@ impl SparseDecision {
         }
     }
 
-    /// Returns the accuracy of results from these rows, which have this number of entries.
+    /// Returns the accuracy of results from these rows. `entries` is the number of entries of the
+    /// rows.
     pub(crate) fn known(&self, own: &[usize], entries: usize) -> matrices::RowAccuracy {
         let (e, noise) = (&self.found.evidence, self.found.noise());
         let row_factor = own.iter().map(|&i| self.found.scaling.row_factor(i));
@@ -153,10 +155,10 @@ mod tests {
     use model::{BodyRef, SpatialBody, SpatialDescription};
 
     /// The rank of six rows is determined from as many random combinations as the mechanism uses.
-    /// The smallest pivot of two thousand such trials is far above that of nearly square matrices.
-    /// The smallest singular value of a nearly square matrix is below δ with a probability of about
-    /// δ to the power of one more than the number of spare columns (A. Edelman, SIAM J. Matrix
-    /// Anal. Appl. 9 (1988) 543–560).
+    /// The smallest pivot of two thousand such trials is far above the smallest pivot of nearly
+    /// square matrices. The smallest singular value of a nearly square matrix is below δ with a
+    /// probability of about δ to the power of one more than the number of spare columns (A.
+    /// Edelman, SIAM J. Matrix Anal. Appl. 9 (1988) 543–560).
     #[test]
     fn random_combinations_show_the_rank_of_the_largest_joint() {
         let mut d = SpatialDescription::new("plate");

@@ -1,4 +1,4 @@
-//! A state that the caller passes, and the check that it fits the mechanism.
+//! A state that the caller passes, and a check that the state fits the mechanism.
 
 use model::codes::Code;
 use model::{Mechanism, System};
@@ -16,7 +16,7 @@ pub struct State {
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum StateError {
-    /// The number of values differs from that of the mechanism.
+    /// The number of values differs from the number in the mechanism.
     #[error("at t = {time} s the state has {found} {what}, need {expected}")]
     Length {
         /// Time of the state (s).
@@ -60,7 +60,7 @@ impl StateError {
     }
 }
 
-/// Checks the sizes of a state and that its numbers are finite.
+/// Checks the sizes of a state, and checks that its numbers are finite.
 pub(crate) fn check(
     mechanism: &Mechanism,
     time: f64,

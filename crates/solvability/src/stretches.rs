@@ -2,16 +2,16 @@
 //!
 //! At constant rank, and between breaks of the functions of time, the coefficients of a component
 //! in the left null space are analytic in time. A component is therefore determined either
-//! throughout such an interval or only at isolated instants in it. A simulation is divided into
-//! intervals at its events and at break times. On an interval the verdict is
+//! throughout such an interval or only at isolated instants in it. The time of a simulation is
+//! divided into intervals at its events and at break times. On an interval the verdict is
 //!
-//! - unique if it is unique at every examined instant inside,
+//! - unique if the component is unique at every examined instant inside,
 //! - not unique if the component is not unique at one of these instants,
 //! - undecided otherwise.
 //!
-//! Instants with a different verdict are special: they are listed, but do not affect the verdict on
-//! the interval. An instant between two intervals belongs to the later one, and the last instant
-//! belongs to the last interval.
+//! Instants with a different verdict are special. These instants are listed, but do not affect the
+//! verdict on the interval. An instant between two intervals belongs to the later interval, and the
+//! last instant belongs to the last interval.
 
 mod all;
 mod carried;
@@ -53,13 +53,14 @@ pub struct SpecialInstant {
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct VerdictTrack {
-    /// Intervals in chronological order, without gaps; neighbours differ in their verdicts.
+    /// Intervals in chronological order, without gaps. Neighbouring intervals have different
+    /// verdicts.
     stretches: Vec<VerdictStretch>,
     special: Vec<SpecialInstant>,
 }
 
 impl VerdictTrack {
-    /// Creates one verdict from start to end.
+    /// Creates a track with one verdict from start to end.
     #[must_use]
     pub fn constant([from, to]: [f64; 2], verdict: Verdict) -> Self {
         Self {
@@ -68,8 +69,8 @@ impl VerdictTrack {
         }
     }
 
-    /// Creates a track from these intervals in chronological order, without gaps. Neighbours with
-    /// the same verdict are merged.
+    /// Creates a track from these intervals in chronological order, without gaps. Neighbouring
+    /// intervals with the same verdict are merged.
     #[must_use]
     pub fn of(stretches: impl IntoIterator<Item = VerdictStretch>) -> Self {
         Self::new(stretches, Vec::new())
@@ -111,7 +112,7 @@ impl VerdictTrack {
         self.special.clear();
     }
 
-    /// Adds another examined instant, if its verdict is decided and differs from that of its
+    /// Adds another examined instant if its verdict is decided and differs from the verdict of its
     /// interval.
     pub(crate) fn look(&mut self, time: f64, verdict: &Verdict) {
         let place = self.special.partition_point(|s| s.time < time);
@@ -123,23 +124,23 @@ impl VerdictTrack {
         }
     }
 
-    /// Returns the verdict on the interval that contains the time. If two intervals meet there, the
-    /// later one counts.
+    /// Returns the verdict on the interval that contains the time. If two intervals meet at this
+    /// time, the later interval counts.
     #[must_use]
     pub fn at(&self, t: f64) -> &Verdict {
         let begun = self.stretches.partition_point(|s| s.from <= t);
         &self.stretches[begun.max(1) - 1].verdict
     }
 
-    /// Returns a number of a solution at a time with the verdict on the interval that contains the
-    /// time.
+    /// Returns a number of a solution at a time. The number has the verdict on the interval that
+    /// contains the time.
     #[must_use]
     pub fn value(&self, t: f64, number: f64) -> Value {
         Value::new(number, self.at(t).clone(), None)
     }
 
-    /// Returns the verdict on the simulation: unique if it is unique on all intervals, not unique
-    /// if it is not unique on one.
+    /// Returns the verdict on the simulation. The verdict is unique if the number is unique on all
+    /// intervals, and not unique if the number is not unique on one interval.
     #[must_use]
     pub fn of_run(&self) -> &Verdict {
         worst(self.stretches.iter().map(|s| &s.verdict))
@@ -152,7 +153,8 @@ impl VerdictTrack {
         unique.map(|s| [s.from, s.to]).collect()
     }
 
-    /// Returns the verdicts on several numbers together: the worst of their verdicts at each time.
+    /// Returns the verdict on several numbers together. At each time, it is the worst of their
+    /// verdicts.
     ///
     /// # Panics
     /// Panics if the list is empty.
@@ -206,7 +208,8 @@ impl VerdictTrack {
     }
 }
 
-/// Returns the worst of the verdicts, the first of equal ones.
+/// Returns the worst of the verdicts. If several verdicts are equally bad, the first verdict is
+/// returned.
 pub(crate) fn worst<'v>(verdicts: impl Iterator<Item = &'v Verdict>) -> &'v Verdict {
     let mut worst: Option<&Verdict> = None;
     for verdict in verdicts {
@@ -223,16 +226,16 @@ pub(crate) fn worst<'v>(verdicts: impl Iterator<Item = &'v Verdict>) -> &'v Verd
 pub struct ReactionStretches {
     /// The joint or drive.
     pub id: ConstraintId,
-    /// The verdict on all its components together.
+    /// The verdict on all components together.
     pub whole: VerdictTrack,
-    /// The verdicts on its components that are not identically zero, and on the named component of
-    /// its definition, with their names.
+    /// The verdicts on the components that are not identically zero, and on the named component of
+    /// the definition, with their names.
     pub components: Vec<(&'static str, VerdictTrack)>,
 }
 
 impl ReactionStretches {
-    /// Returns the verdicts on a component, by its name; `None` for a component that is zero under
-    /// any load.
+    /// Returns the verdicts on the component with this name, or `None` for a component that is zero
+    /// under any load.
     #[must_use]
     pub fn component(&self, name: &str) -> Option<&VerdictTrack> {
         let mut own = self.components.iter();
@@ -240,7 +243,7 @@ impl ReactionStretches {
             .map(|(_, track)| track)
     }
 
-    /// Returns a component of a solution at a time with the verdict on the interval that contains
+    /// Returns a component of a solution at a time, with the verdict on the interval that contains
     /// the time. A component that is zero under any load is unique.
     ///
     /// ```
@@ -267,7 +270,8 @@ impl ReactionStretches {
 pub struct GroupStretches {
     /// The verdict on the whole group.
     pub whole: VerdictTrack,
-    /// The verdicts on its numbers, with their names: `sum`, or the components of a wrench.
+    /// The verdicts on the numbers of the group, with their names: `sum`, or the components of a
+    /// wrench.
     pub numbers: Vec<(&'static str, VerdictTrack)>,
 }
 

@@ -1,13 +1,14 @@
 //! Reactions that are unique because of the structure of the mechanism, independent of any rank
-//! decision. Verdicts do not use this analysis; it explains some of them.
+//! decision. Verdicts do not use this analysis, but the analysis contains the reasons of some
+//! verdicts.
 
 use crate::pose::{dimensionless, uncertainty};
 use model::start::scene_size;
 use model::{Mechanism, Scratch, System};
 use rank::{RankError, RowGroup, Structure};
 
-/// Analyses the structure: its groups are joints and drives in the order of the layout, its blocks
-/// are bodies. The scratch must contain Φ and C at coordinates q.
+/// Analyses the structure. The groups of the structure are joints and drives in the order of the
+/// layout, and its blocks are bodies. The scratch must contain Φ and C at coordinates q.
 ///
 /// # Errors
 /// Returns an error if C is not finite.

@@ -20,11 +20,10 @@ pub use sensitivity::{Datum, Sensitivity};
 /// to the data. If the value is not unique, it is stored together with the choice on which it
 /// depends, or it is omitted.
 ///
-/// Serialised, it is
-/// `{ value, verdict, fragile, sensitivity, reason, choice, no_finite_reaction }`. `value` is
-/// `null` if there is no number. `choice` is present if and only if the number belongs to a choice.
-/// `reason` states why the verdict is undecided, or why a number is missing for a reason other than
-/// its verdict.
+/// The serialised form is `{ value, verdict, fragile, sensitivity, reason, choice,
+/// no_finite_reaction }`. `value` is `null` if there is no number. `choice` is present if and only
+/// if the number belongs to a choice. `reason` states why the verdict is undecided, or why a number
+/// is missing for a reason other than its verdict.
 ///
 /// ```
 /// use pfaff_solvability::{Value, Verdict};
@@ -48,14 +47,14 @@ enum Number {
     Chosen { value: f64, by: Label },
     /// The number is omitted, because it would belong to one of many solutions.
     Open,
-    /// No verdict and no choice has a number. The equations have solutions, but the motion does not
-    /// have finite reactions, or their existence is undecided.
+    /// The number does not exist for any verdict or choice. The equations have solutions, but the
+    /// motion does not have finite reactions, or it is undecided whether they exist.
     NotFinite(Arc<NoFiniteReaction>),
 }
 
 impl Value {
-    /// Creates a number of a solution. If it is not unique, `by` is the choice on which it depends;
-    /// without a choice, the number is omitted.
+    /// Creates a number of a solution. If the number is not unique, `by` is the choice on which it
+    /// depends. Without a choice, the number is omitted.
     #[must_use]
     pub fn new(value: f64, verdict: Verdict, by: Option<&Label>) -> Self {
         let number = match (verdict.is_unique(), by) {
@@ -100,7 +99,7 @@ impl Value {
         &self.verdict
     }
 
-    /// Returns the number, if it is determined.
+    /// Returns the number if it is determined.
     #[must_use]
     pub fn determined(&self) -> Option<f64> {
         match self.number {
@@ -109,8 +108,8 @@ impl Value {
         }
     }
 
-    /// Returns the number and the choice on which it depends, if it belongs to one of many
-    /// solutions.
+    /// Returns the number and the choice on which it depends. The result exists only if the number
+    /// belongs to one of many solutions.
     #[must_use]
     pub fn of_choice(&self) -> Option<(f64, &Label)> {
         match &self.number {
@@ -119,7 +118,8 @@ impl Value {
         }
     }
 
-    /// Returns the number in the solution to which it belongs, determined or chosen.
+    /// Returns the number in the solution to which it belongs. The number may be determined or
+    /// chosen.
     #[must_use]
     pub fn in_solution(&self) -> Option<f64> {
         self.determined()
@@ -167,9 +167,9 @@ impl fmt::Display for Value {
 impl std::ops::Add for Value {
     type Output = Self;
 
-    /// Returns the sum of numbers of different parts. It is unique if both numbers are unique, and
-    /// chosen if one of them is chosen. The sensitivity of a sum does not follow from those of its
-    /// terms.
+    /// Returns the sum of numbers of different parts. The sum is unique if both numbers are unique,
+    /// and chosen if one of the numbers is chosen. The sensitivity of a sum cannot be computed from
+    /// the sensitivities of its terms.
     fn add(self, other: Self) -> Self {
         let verdict = self.verdict.worse(other.verdict);
         let number = match (self.number, other.number) {

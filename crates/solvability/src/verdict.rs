@@ -12,9 +12,9 @@ pub enum Verdict {
     Unique,
     /// The reaction can change without any effect on the motion.
     NotUnique,
-    /// The numbers do not decide between unique and not unique.
+    /// The numbers are not sufficient to decide between unique and not unique.
     Undecided {
-        /// Reason, with the numbers.
+        /// Reason, with the relevant numbers.
         reason: String,
     },
 }
@@ -71,7 +71,7 @@ pub struct Judgement {
     /// Distance of the reaction from uniqueness, dimensionless; 0 for a unique reaction.
     pub margin: f64,
     /// Whether the reaction is unique only within the tolerance that the scene states. In this
-    /// case, rounding of the data does not explain the margin.
+    /// case, the margin is larger than the rounding of the data.
     pub within_tolerance: bool,
 }
 
@@ -87,8 +87,8 @@ impl Judgement {
     }
 
     /// Converts a margin that [`rank::RankDecision::read_coefficient`] has classified. A margin
-    /// that counts as zero is zero within the tolerance of the scene only if it exceeds the
-    /// rounding.
+    /// that counts as zero may be zero only within the tolerance of the scene. The margin is zero
+    /// only within the tolerance if it exceeds the rounding.
     pub(crate) fn of(margin: f64, reading: CoefficientReading, is_above_rounding: bool) -> Self {
         let within_tolerance = is_above_rounding && reading == CoefficientReading::Zero;
         let verdict = match reading {
@@ -113,8 +113,8 @@ impl Judgement {
         }
     }
 
-    /// Returns the judgement for exact data: the margin is zero if the value vanishes, otherwise
-    /// the given margin, even if it is very small.
+    /// Returns the judgement for exact data. The margin is zero if the value vanishes. Otherwise it
+    /// is the given margin, even if this margin is very small.
     pub(crate) fn exact(margin: f64, vanishes: bool) -> Self {
         if vanishes {
             Self::new(Verdict::Unique, 0.0)
@@ -123,17 +123,17 @@ impl Judgement {
         }
     }
 
-    /// Returns the judgement if the rank itself is undecided.
+    /// Returns the judgement for an undecided rank.
     pub(crate) fn without_rank(margin: f64, doubt: &rank::Doubt) -> Self {
         let reason = format!("rank undecided: {doubt}");
         Self::new(Verdict::Undecided { reason }, margin)
     }
 }
 
-/// Returns the common verdict: not unique if one of the verdicts is not unique, otherwise undecided
-/// if one is undecided. Among equal verdicts, the one with the largest margin counts (NaN is the
-/// largest). Margins of different verdicts cannot be compared, because each was compared with its
-/// own noise.
+/// Returns the common verdict. The common verdict is not unique if one of the verdicts is not
+/// unique, and otherwise undecided if one verdict is undecided. Among equal verdicts, the verdict
+/// with the largest margin counts (NaN is the largest margin). Margins of different verdicts cannot
+/// be compared, because each margin was compared with its own noise.
 pub(crate) fn worst(judgements: impl Iterator<Item = Judgement>) -> Option<Judgement> {
     let severity = |j: &Judgement| j.verdict.severity();
     let mut within_tolerance = false;
@@ -153,8 +153,8 @@ pub(crate) fn worst(judgements: impl Iterator<Item = Judgement>) -> Option<Judge
 mod tests {
     use super::*;
 
-    /// The noise differs from row to row: a small margin may be certain where a larger one is
-    /// rounding.
+    /// The noise differs from row to row. A small margin may be certain although a larger margin of
+    /// another row is rounding.
     #[test]
     fn one_part_that_is_not_unique_decides_whatever_the_margins() {
         let judged = Judgement::new;

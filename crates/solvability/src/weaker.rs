@@ -1,16 +1,16 @@
-//! Weaker joints in place of the joints of a mechanism, so that all of their reactions become
-//! unique and the motion does not change.
+//! Weaker joints that replace joints of a mechanism. With these joints, all reactions become unique
+//! and the motion does not change.
 //!
 //! The reaction of a joint X is a wrench in the row space of C_X. The rows of a weaker joint span a
-//! part of that space, so the weaker joint releases the components along an orthonormal basis E_X
-//! of the rest. All solutions are `λ = λ₀ + Z·y`. If components of several joints are released,
-//! their values must be zero: `E_Xᵀ·C_Xᵀ·Z_X·y = −E_Xᵀ·C_Xᵀ·λ₀` for all of these joints. This
-//! determines all reactions, and the remaining rows have the rank of C, iff these equations are as
-//! many as the columns of Z and their matrix is nonsingular. The mechanism then has the same
-//! velocities, because its rows span the same space.
+//! part of this space. Therefore the weaker joint releases the components along an orthonormal
+//! basis E_X of the remaining space. All solutions are `λ = λ₀ + Z·y`. If components of several
+//! joints are released, their values must be zero: `E_Xᵀ·C_Xᵀ·Z_X·y = −E_Xᵀ·C_Xᵀ·λ₀` for all of
+//! these joints. All reactions are determined, and the remaining rows have the rank of C, iff the
+//! number of these equations is the number of columns of Z and their matrix is nonsingular. The
+//! mechanism then has the same velocities, because its rows span the same space.
 //!
 //! Joints that share no column of a suitable Z are independent of each other and are replaced
-//! separately. For each set of coupled joints, a branch-and-bound search looks for the replacements
+//! separately. For each set of coupled joints, a branch-and-bound search finds the replacements
 //! with the smallest sum of costs. The caller defines the cost of each weaker joint.
 
 mod search;
@@ -31,9 +31,9 @@ use search::{Candidate, cheapest};
 /// A weaker joint that may replace a joint of the mechanism.
 #[derive(Clone, Debug, PartialEq)]
 pub struct WeakerJoint {
-    /// The joint that it replaces.
+    /// The joint that the weaker joint replaces.
     pub joint: ConstraintId,
-    /// Orthonormal basis of the dimensionless load components that it releases.
+    /// Orthonormal basis of the dimensionless load components that the weaker joint releases.
     released: Vec<Vec<f64>>,
 }
 
@@ -42,10 +42,10 @@ pub struct WeakerJoint {
 pub struct CoupledJoints {
     /// The joints and drives.
     pub joints: Vec<ConstraintId>,
-    /// Number of their load components that equilibrium does not determine. A weaker joint that
-    /// releases more components changes the motion.
+    /// Number of load components of the joints that equilibrium does not determine. If weaker
+    /// joints release more components, the motion changes.
     pub redundancy: usize,
-    /// Orthonormal basis of the free multipliers that change their reactions.
+    /// Orthonormal basis of the free multipliers that change the reactions of the joints.
     basis: Vec<Vec<f64>>,
 }
 
@@ -59,7 +59,8 @@ pub struct Replacements<'q, 'm> {
 }
 
 impl<'q, 'm> Replacements<'q, 'm> {
-    /// Uses the rank that was decided at the configuration with the coordinates q.
+    /// Creates the search for a configuration with the coordinates q. The search uses the rank that
+    /// was decided at this configuration.
     pub(crate) fn new(configuration: &'q Configuration<'m>, q: &'q [f64]) -> Self {
         let (mechanism, s) = (&configuration.reactions.mechanism, configuration.scratch());
         let c = dimensionless(mechanism, s, configuration.size());
@@ -71,9 +72,10 @@ impl<'q, 'm> Replacements<'q, 'm> {
         }
     }
 
-    /// Compares joints with those of a changed mechanism with the same bodies, joints and drives,
-    /// in the same order. The result does not contain a joint if the changed joint has not fewer
-    /// rows, or if its rows are dependent or restrict other motions than the original rows.
+    /// Compares joints with the joints of a changed mechanism with the same bodies, joints and
+    /// drives, in the same order. A changed joint is not in the result if it does not have fewer
+    /// rows, if its rows are dependent, or if its rows restrict motions other than those of the
+    /// original rows.
     #[must_use]
     pub fn weaker_joints(&self, changed: &Mechanism, joints: &[ConstraintId]) -> Vec<WeakerJoint> {
         let (own, other) = (self.configuration.layout(), changed.layout());
@@ -121,9 +123,9 @@ impl<'q, 'm> Replacements<'q, 'm> {
 
     /// Finds sets of weaker joints that make all reactions of coupled joints unique and do not
     /// change the motion. At most one weaker joint replaces each joint. The cost of a set is the
-    /// sum of the costs of its weaker joints, and is less than `below`. The cheapest set comes
-    /// first, as indices of the list of weaker joints. Each set is sufficient by itself. The result
-    /// is empty if no set was found.
+    /// sum of the costs of its weaker joints, and must be less than `below`. The cheapest set comes
+    /// first. A set is a list of indices into the list of weaker joints. Each set is sufficient by
+    /// itself. The result is empty if no set was found.
     #[must_use]
     pub fn cheapest(
         &self,
@@ -186,20 +188,21 @@ fn coupled(layout: &Layout, free: &FreeMultipliers<'_>) -> Vec<Vec<ConstraintId>
         .collect()
 }
 
-/// Returns the vector with the length 1; the zero vector is not changed.
+/// Returns the vector scaled to length 1. The zero vector is not changed.
 fn unit(vector: &[f64]) -> Vec<f64> {
     let length = norm(vector);
     let scale = if length > 0.0 { length } else { 1.0 };
     vector.iter().map(|x| x / scale).collect()
 }
 
-/// Adds the directions of these vectors that an orthonormal basis does not contain. A vector whose
-/// remainder is not longer than `zero` is in the span. Returns the lengths of the added remainders.
+/// Adds the directions of these vectors that an orthonormal basis does not contain. If the
+/// remainder of a vector is not longer than `zero`, the vector is in the span. Returns the lengths
+/// of the added remainders.
 fn extend(basis: &mut Vec<Vec<f64>>, vectors: &[Vec<f64>], zero: f64) -> Vec<f64> {
     let mut added = Vec::new();
     for vector in vectors {
         let mut rest = vector.clone();
-        // The second round removes the rounding of the first one.
+        // The second round removes the rounding of the first round.
         for _ in 0..2 {
             for known in basis.iter() {
                 axpy(-dot(known, &rest), known, &mut rest);

@@ -24,7 +24,7 @@ pub(crate) fn place(p: &[f64], size: f64) -> String {
     format!("{} m", components(p, size))
 }
 
-/// Formats any number of components in this way.
+/// Formats any number of components in the same way as [`vector`].
 pub(crate) fn components(p: &[f64], size: f64) -> String {
     let shown = p
         .iter()

@@ -1,18 +1,18 @@
-//! A signed function of time that vanishes if the kept rows become dependent. It is the determinant
-//! of these rows, bordered by a fixed basis of the motions that they allow at one instant. Rows and
-//! basis stay fixed, so the function is as smooth as the motion.
+//! A signed function of time that vanishes if the kept rows become dependent. The function is the
+//! determinant of these rows, bordered by a fixed basis of the motions that the rows allow at one
+//! instant. The rows and the basis stay fixed, so the function is as smooth as the motion.
 
 use linalg::{Determinant, KeptRowSaddle, Lu, Matrix, PivotedQr};
 
-/// The kept rows, and the basis fixed at one instant.
+/// The kept rows, and a basis that is fixed at one instant.
 pub(super) struct Border {
     kept: Vec<usize>,
-    /// Rows: the basis vectors.
+    /// The basis vectors, one in each row.
     frame: Matrix,
     /// The factors of the kept rows; `None` if there are more rows than velocities.
     saddle: Option<KeptRowSaddle>,
     units: Vec<f64>,
-    /// The determinant at the instant of the basis.
+    /// The determinant at the instant at which the basis was fixed.
     reference: Determinant,
 }
 
@@ -30,16 +30,16 @@ impl Border {
         border
     }
 
-    /// Returns the determinant at another instant, relative to its value at the first instant. Zero
-    /// if the rows are dependent to working precision.
+    /// Returns the determinant at another instant, relative to its value at the first instant. The
+    /// result is zero if the rows are dependent to working precision.
     pub(super) fn value(&mut self, c: &Matrix) -> f64 {
         let now = self.determinant(c);
         now.sign * self.reference.sign * (now.log - self.reference.log).exp()
     }
 
     /// Returns the overlap of the fixed basis with the null space of the same rows at another
-    /// instant, as a volume: 1 if the null space has not rotated. `there` is fixed at that instant,
-    /// with C `c`.
+    /// instant, as a volume. The overlap is 1 if the null space has not rotated. `there` is the
+    /// border fixed at the other instant, and `c` is C at this instant.
     pub(super) fn overlap(&self, there: &Self, c: &Matrix) -> f64 {
         let turned;
         let other = if self.kept == there.kept {
@@ -77,7 +77,7 @@ fn null_space(c: &Matrix, kept: &[usize]) -> Matrix {
 mod tests {
     use super::*;
 
-    /// A rotating row, bordered by its null space at angle 0.4: the determinant is the cosine of
+    /// A rotating row is bordered by its null space at angle 0.4. The determinant is the cosine of
     /// the angle between them.
     #[test]
     fn a_turning_row() {

@@ -1,4 +1,5 @@
-//! Compares the verdicts at an instant with those of the time intervals that contain it.
+//! Compares the verdicts at an instant with the verdicts of the time intervals that contain the
+//! instant.
 
 use model::{Layout, Mechanism, System};
 
@@ -8,9 +9,9 @@ use crate::stretches::{Stretches, worst};
 use crate::verdict::{Judgement, Verdict};
 
 /// Lists the verdicts at an instant that differ from the verdicts on the adjacent time intervals.
-/// For each reaction, the verdict on all components together comes first, and then the verdicts on
-/// single components. `judged` contains the verdicts on all components, in the order of joints and
-/// drives.
+/// For each reaction, the verdict on all components together comes first, followed by the verdicts
+/// on single components. `judged` contains the verdicts on all components, in the order of joints
+/// and drives.
 pub(super) fn differences(
     mechanism: &Mechanism,
     verdicts: &Stretches,
@@ -35,10 +36,11 @@ pub(super) fn differences(
     found
 }
 
-/// Replaces the special instants of a simulation by those that the samples show. The states of the
-/// simulation are less accurate, and near such an instant its verdicts do not differ from the
-/// samples. If several adjacent samples have verdicts that differ only by rounding, the instant is
-/// the first sample of the motion, or otherwise the sample with the smallest margin.
+/// Replaces the special instants of a simulation by the special instants that the samples show. The
+/// states of the simulation are less accurate, and near a special instant its verdicts do not
+/// differ from those of the samples. If several adjacent samples have verdicts that differ only by
+/// rounding, one of these samples is the instant. This sample is the first sample of the motion, or
+/// otherwise the sample with the smallest margin.
 pub(super) fn look_at_samples<F>(verdicts: &mut Stretches, path: &Path<'_, F>) {
     let samples = &path.samples;
     for (k, track) in verdicts.components_mut().enumerate() {
@@ -71,8 +73,8 @@ fn name_of(layout: &Layout, group: usize) -> String {
     layout.groups[group].name.clone()
 }
 
-/// Adds the verdicts at an instant to those along the motion. The instant is special for verdicts
-/// that are decided and differ from the verdict on their interval.
+/// Adds the verdicts at an instant to the verdicts along the motion. The instant is special for
+/// verdicts that are decided and differ from the verdict on their interval.
 pub(super) fn look(verdicts: &mut Stretches, (time, judged): (f64, &[Judgement])) {
     for (track, here) in verdicts.components_mut().zip(judged) {
         track.look(time, &here.verdict);

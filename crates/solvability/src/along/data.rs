@@ -39,7 +39,7 @@ pub struct GenericRank {
     pub redundancy: usize,
 }
 
-/// A time interval between break times on which the rank differs from that of the rest of the
+/// A time interval between break times on which the rank differs from the rank of the rest of the
 /// motion.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
@@ -55,7 +55,7 @@ pub struct Stretch {
     pub text: String,
 }
 
-/// An instant at which the configuration is singular, or nearly so.
+/// An instant at which the configuration is singular or nearly singular.
 #[derive(Clone, Debug)]
 #[non_exhaustive]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
@@ -84,12 +84,13 @@ pub enum PassageKind {
         /// How the motion continues.
         continuation: Continuation,
     },
-    /// The configuration is nearly singular; the rank does not drop.
+    /// The configuration is nearly singular. The rank does not drop.
     NearlySingular {
         /// The smallest non-zero singular value.
         sigma: f64,
     },
-    /// The configuration is so close to a singular one that a drop of the rank is undecided.
+    /// The configuration is so close to a singular configuration that a drop of the rank is
+    /// undecided.
     Undecided {
         /// The singular values and the tolerance.
         doubt: Doubt,

@@ -41,11 +41,10 @@ impl Margins {
     }
 }
 
-/// An instant, with the verdicts on all components at this instant.
+/// An instant, and the verdicts on all components at this instant.
 pub(super) type JudgedInstant = (f64, Vec<Judgement>);
 
-/// Finds isolated instants outside the stretches that have another rank, and outside nearly
-/// singular intervals.
+/// Finds isolated instants. Stretches with another rank and nearly singular intervals are excluded.
 pub(super) fn instants<F: FnMut(f64) -> State>(
     path: &mut Path<'_, F>,
     verdicts: &Stretches,
@@ -98,8 +97,8 @@ pub(super) fn instants<F: FnMut(f64) -> State>(
     Ok(found)
 }
 
-/// Returns whether a component is also unique at a sample next to an instant and between both. If
-/// so, the instant is that of the sample, and rounding displaces it.
+/// Returns whether a component is also unique at a sample next to an instant and at times between
+/// the two. In this case, the instant is that of the sample, and rounding has displaced it.
 fn is_of_sample<F: FnMut(f64) -> State>(
     path: &mut Path<'_, F>,
     known: &[bool],
@@ -123,8 +122,8 @@ fn is_open(track: &VerdictTrack, t: f64) -> bool {
     *track.at(t) == Verdict::NotUnique
 }
 
-/// Returns intervals around minima of the margin of a component. The minima are found from its
-/// known margins at samples and at finer times.
+/// Returns intervals around minima of the margin of a component. The minima are found from the
+/// known margins of the component at samples and at finer times.
 fn brackets<F: FnMut(f64) -> State>(
     path: &mut Path<'_, F>,
     margins_at: &mut Margins,

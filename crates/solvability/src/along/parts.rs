@@ -11,8 +11,8 @@ use crate::second_order::Continuation;
 use crate::state::State;
 use crate::stretches::Stretches;
 
-/// Analyses a motion of parts at these times, which include the break times. The verdicts of the
-/// simulation that computed the motion are given, if there was a simulation.
+/// Analyses a motion of parts at these times, which include the break times. If a simulation
+/// computed the motion, the verdicts of the simulation are given.
 pub(super) fn judged_by_parts(
     mechanism: &Mechanism,
     motion: impl Fn(f64, &Extent) -> State + Sync,
@@ -92,7 +92,7 @@ pub(super) fn judged_by_parts(
     })
 }
 
-/// Extends the velocities on other branches of a part to the whole mechanism; bodies outside the
+/// Extends the velocities on other branches of a part to the whole mechanism. Bodies outside the
 /// part keep the velocities of the motion.
 fn whole_branches(passage: &mut Passage, extent: &Extent, motion: &impl Fn(f64, &Extent) -> State) {
     if let PassageKind::RankDrops {
@@ -107,8 +107,8 @@ fn whole_branches(passage: &mut Passage, extent: &Extent, motion: &impl Fn(f64, 
     }
 }
 
-/// Merges the time intervals of all parts in chronological order. `redundancy` is that of the whole
-/// mechanism; the number with each interval is the usual redundancy of its part.
+/// Merges the time intervals of all parts in chronological order. `redundancy` is the redundancy of
+/// the whole mechanism. The number with each interval is the usual redundancy of its part.
 fn together(mut found: Vec<(usize, Stretch)>, redundancy: usize) -> Vec<Stretch> {
     found.sort_by(|(_, a), (_, b)| a.from.total_cmp(&b.from).then(a.to.total_cmp(&b.to)));
     let mut all: Vec<Stretch> = Vec::new();

@@ -34,8 +34,8 @@ pub(super) struct DecidedPassage {
     pub(super) decision: RankDecision,
 }
 
-/// Finds singular and nearly singular instants, except on time intervals that are singular
-/// throughout.
+/// Finds singular and nearly singular instants. Time intervals that are singular throughout are
+/// excluded.
 pub(super) fn passages<F: FnMut(f64) -> State>(
     path: &mut Path<'_, F>,
     stretches: &[Stretch],
@@ -68,9 +68,10 @@ pub(super) fn passages<F: FnMut(f64) -> State>(
         .collect()
 }
 
-/// Returns brackets of the minima of a sampled function, including minima at its ends. It returns
-/// no bracket where the function is constant. It also returns no bracket next to times with unknown
-/// values, because the function may decrease further towards these times.
+/// Returns brackets of the minima of a sampled function, including minima at its ends. The function
+/// returns no bracket on intervals on which the values are constant. The function also returns no
+/// bracket next to times with unknown values, because the values may decrease further towards these
+/// times.
 pub(super) fn local_minima(times: &[f64], values: &[Option<f64>]) -> Vec<[f64; 2]> {
     let last = times.len().saturating_sub(1);
     (0..times.len())
@@ -122,8 +123,8 @@ fn sign_changes<F: FnMut(f64) -> State>(
         .map(|w| (w[0].clone(), w[1].clone(), SAMPLE_HALVINGS))
         .collect();
     while let Some((a, b, halvings)) = intervals.pop() {
-        // If C differs from a matrix of rank r by no more than this distance, its rank is at least
-        // r.
+        // If the distance of C from a matrix of rank r is at most this distance, the rank of C is
+        // at least r.
         if BENT * distance(&a.matrix, &b.matrix) < a.sigma.max(b.sigma) {
             continue;
         }
@@ -216,7 +217,8 @@ fn passage<F: FnMut(f64) -> State>(
     })
 }
 
-/// Returns the interval around t on which σ_r is below the limit, within the given motion.
+/// Returns the interval around t on which σ_r is below the limit, within the time range of the
+/// motion.
 fn nearly_singular<F: FnMut(f64) -> State>(
     path: &mut Path<'_, F>,
     t: f64,
@@ -274,7 +276,8 @@ fn regular_motions<F: FnMut(f64) -> State>(
     if freedoms == 0 {
         return Ok(Matrix::zeros(n, 0));
     }
-    // The mean of both sides differs from the limit only by the square of their distance.
+    // The mean of both sides differs from the limit only by the square of the distance of the
+    // sides.
     let distance = BESIDE_PASSAGE * (to - t).min(t - from);
     let sides = if distance > 0.0 {
         vec![t - distance, t + distance]
@@ -293,7 +296,7 @@ fn regular_motions<F: FnMut(f64) -> State>(
     let first = &frames[0];
     let mut sum = first.clone();
     for other in &frames[1..] {
-        // The other frame, rotated onto the first.
+        // The second frame, rotated onto the first frame.
         let turned = other.product(&other.transpose().product(first));
         let entries = sum.as_mut_slice().iter_mut().zip(turned.as_slice());
         entries.for_each(|(sum, x)| *sum += x);
@@ -362,7 +365,7 @@ mod tests {
 
     const SAMPLES: [f64; 3] = [0.0, 0.5, 1.0];
 
-    /// Function that rises from 0 to 1 between the second and the third sample.
+    /// A function that rises from 0 to 1 between the second and the third sample.
     fn second_half(t: f64) -> f64 {
         (2.0 * t - 1.0).max(0.0)
     }
@@ -392,7 +395,7 @@ mod tests {
         );
     }
 
-    /// δ is 0.5 until it falls below zero for two thousandths of the motion; afterwards it is 0.02.
+    /// δ is 0.5 until it falls below zero for two thousandths of the motion. Afterwards δ is 0.02.
     #[test]
     fn passages_are_found_that_are_two_thousandths_apart() {
         let roots = [0.3095, 0.3115];

@@ -36,7 +36,7 @@ pub(super) struct Path<'a, F> {
     size: f64,
     /// The rank almost everywhere.
     pub(super) rank: usize,
-    /// The instant with this rank that is farthest from a singular configuration (s).
+    /// The instant (s) with this rank that is farthest from a singular configuration.
     pub(super) typical: f64,
     /// The equilibration of the best sample, used for all samples.
     scaling: Scaling,
@@ -59,15 +59,15 @@ pub(super) struct Point {
 /// A point at which the rank has been determined.
 pub(super) struct Sample {
     pub(super) t: f64,
-    /// The r-th singular value of the equilibrated C, with r the rank almost everywhere.
+    /// The r-th singular value of the equilibrated C. Here r is the rank almost everywhere.
     pub(super) sigma: f64,
     /// Whether the rank is decided and equal to r, and the configuration is not nearly singular.
     pub(super) regular: bool,
     /// C, equilibrated with the scaling of all samples.
     pub(super) c: Matrix,
     pub(super) decision: RankDecision,
-    /// The verdicts on all components, in the order of joints and drives; empty if only ranks are
-    /// requested.
+    /// The verdicts on all components, in the order of joints and drives. The list is empty if only
+    /// ranks are requested.
     pub(super) judged: Vec<Judgement>,
 }
 
@@ -112,7 +112,8 @@ impl<'a, F: FnMut(f64) -> State> Path<'a, F> {
         Ok(path)
     }
 
-    /// Takes rank and equilibration from the samples, and evaluates all samples with these.
+    /// Takes rank and equilibration from the samples, and evaluates all samples with this rank and
+    /// equilibration.
     fn settle_rank(&mut self) -> Result<(), AlongError> {
         let sigma = |s: &Sample| s.decision.evidence.sigma_r;
         let decided = self.samples.iter().filter(|s| s.decision.is_decided());
@@ -177,8 +178,8 @@ impl<'a, F: FnMut(f64) -> State> Path<'a, F> {
         self.size
     }
 
-    /// Decides the rank at a point. `distance` is an upper bound of the distance between the C of
-    /// the point and the matrix whose rank is requested.
+    /// Decides the rank at a point. `distance` is an upper bound of the distance between C at the
+    /// point and the matrix whose rank is requested.
     pub(super) fn decide(&self, p: &Point, distance: f64) -> Result<RankDecision, AlongError> {
         let layout = self.mechanism.layout();
         if distance == 0.0 && self.mechanism.has_tolerances() && layout.rows() <= ROWS_MAX {

@@ -1,15 +1,15 @@
-//! Searches in a function of time: for a change of sign, for the time at which it falls below zero,
-//! and for a minimum. The function may return an error. The searches find singular instants along a
-//! given motion and within a step of a simulation.
+//! Searches in a function of time for a change of sign, for the time at which the function falls
+//! below zero, and for a minimum. The function may return an error. The searches find singular
+//! instants along a given motion and within a step of a simulation.
 //!
-//! The crate `integrators` has its own search for events: that crate depends on no other crate, and
+//! The crate `integrators` has its own search for events. That crate depends on no other crate, and
 //! its search returns the end of the bracket after the event.
 
 use crate::limits::{EDGE, FALL, NARROWING, RESOLUTION, SEARCH_ITERATIONS};
 
 /// Returns a root of `f` between a and b, where `f(a) > 0 > f(b)`. The method uses secant steps
-/// with the Illinois modification, and bisection if these steps gain too little. It stops if a
-/// value is at most `enough`.
+/// with the Illinois modification, and bisection if these steps gain too little. The search stops
+/// if a value is at most `enough`.
 ///
 /// # Errors
 /// Returns the errors of `f`.
@@ -20,7 +20,7 @@ pub fn root<E>(
     mut f: impl FnMut(f64) -> Result<f64, E>,
 ) -> Result<f64, E> {
     let (mut low, mut high) = ((a, f_a), (b, f_b));
-    // Values for the secant, halved at an end that does not move.
+    // Values for the secant. The value at an end that does not move is halved.
     let (mut w_low, mut w_high) = (f_a, f_b);
     let mut width = b - a;
     let mut slow = 0;
@@ -62,7 +62,7 @@ pub fn root<E>(
 }
 
 /// Returns the time between `outside` and `inside`, in either order, at which `f` becomes negative.
-/// `f` is not negative at `outside` and negative at `inside`.
+/// `f` must be negative at `inside` and not negative at `outside`.
 pub(super) fn edge<E>(
     [outside, inside]: [f64; 2],
     mut f: impl FnMut(f64) -> Result<f64, E>,
@@ -77,7 +77,7 @@ pub(super) fn edge<E>(
     Ok(direction * root(along, values, enough, |x| f(direction * x))?)
 }
 
-/// Returns whether a function may reach `limit` near its minimum, if the values found around the
+/// Returns whether a function may reach `limit` near its minimum. The values found around the
 /// minimum are between `least` and `largest`.
 pub(super) fn may_reach(limit: f64, least: f64, largest: f64) -> bool {
     let lowest = least - FALL * (largest - least);
@@ -85,10 +85,11 @@ pub(super) fn may_reach(limit: f64, least: f64, largest: f64) -> bool {
     lowest.is_nan() || lowest <= limit
 }
 
-/// Finds the minimum of `f` between a and b and its value, provided that there is one minimum. The
-/// golden section search finds the corner of an absolute value to rounding, or stops if the
-/// interval is narrower than `enough`. It returns `None` as soon as the minimum is certainly above
-/// `limit`, for example if a function with a jump stays above it on a narrow interval.
+/// Finds the minimum of `f` between a and b and its value, if `f` has only one minimum in this
+/// interval. The golden section search finds the corner of an absolute value to rounding. The
+/// search stops if the interval is narrower than `enough`. The search returns `None` as soon as the
+/// minimum is certainly above `limit`, for example if a function with a jump stays above `limit` on
+/// a narrow interval.
 ///
 /// # Errors
 /// Returns the errors of `f`.
@@ -181,14 +182,15 @@ mod tests {
         assert!((at(&|t| (t - 0.3).abs()) - 0.3).abs() < 1e-15);
         assert!((at(&|t| (t - 0.3).powi(2)) - 0.3).abs() < 1e-8);
         assert_eq!(at(&|t| t), -1.0);
-        // A tenth above the limit takes few evaluations. A tenth below the limit is found.
+        // A minimum that is a tenth above the limit takes few evaluations. A minimum that is a
+        // tenth below the limit is found.
         let above = |t: f64| 0.1 + (t - 0.3).abs().sqrt();
         assert!(matches!(found(0.0, &|t| 0.1 + (t - 0.3).powi(2)), (None, asked) if asked < 14));
         assert!(matches!(found(0.0, &above), (None, asked) if asked < 24));
         assert!((found(0.11, &above).0.unwrap().0 - 0.3).abs() < 1e-15);
         // A root is as steep as a minimum at zero may be.
         assert!((at(&|t| (t - 0.3).abs().sqrt()) - 0.3).abs() < 1e-15);
-        // A jump does not reach zero, however narrow the interval.
+        // A jump does not reach zero on any narrow interval.
         let jump = |t: f64| if t < 0.3 { 0.2 } else { 0.1 + 1e-3 * t };
         assert!(matches!(found(0.0, &jump), (None, asked) if asked < 30));
     }

@@ -1,5 +1,5 @@
-//! Determines the verdicts of a motion from its sample times, and the time intervals between break
-//! times on which the rank differs.
+//! Determines the verdicts of a motion from its sample times. Also determines the time intervals
+//! between break times on which the rank differs.
 
 use model::{Mechanism, System};
 
@@ -10,7 +10,8 @@ use crate::components::all_components;
 use crate::state::State;
 use crate::stretches::{InstantOrder, Stretches, VerdictRecorder};
 
-/// Returns the verdicts at the sample times whose rank is that of their interval of the motion.
+/// Returns the verdicts at those sample times whose rank is the rank of their interval of the
+/// motion.
 pub(super) fn of_samples<F: FnMut(f64) -> State>(path: &Path<'_, F>) -> Stretches {
     let (mechanism, samples) = (path.mechanism, &path.samples);
     let mut recorder = VerdictRecorder::new(all_components(mechanism.layout()).count());
@@ -61,7 +62,7 @@ pub(super) fn of_other_rank<F: FnMut(f64) -> State>(path: &Path<'_, F>) -> Vec<S
 struct Piece {
     from: f64,
     to: f64,
-    /// The largest decided rank at the sample times inside.
+    /// The largest decided rank at the sample times inside the interval.
     rank: Option<usize>,
 }
 

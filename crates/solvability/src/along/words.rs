@@ -59,8 +59,8 @@ fn with_differences(sentence: String, differences: &[Difference]) -> String {
     text
 }
 
-/// Returns the name of the reaction if all of its components differ in the same way, otherwise the
-/// name of its component.
+/// Returns the name of the reaction if all of its components differ in the same way, and otherwise
+/// the name of its component.
 fn name(d: &Difference, all: &[Difference]) -> String {
     let whole = |w: &&Difference| w.reaction == d.reaction && w.component.is_none();
     let is_covered = all.iter().find(whole).is_some_and(|w| w.here == d.here);

@@ -28,7 +28,8 @@ pub(super) struct Hull {
     /// Factors of the transposed rows of the basis: `y′ = A_B·y` are the coordinates of the blocks.
     basis: PivotedQr,
     blocks: Vec<Block>,
-    /// Orthonormal directions of y that change the elements, if there are other directions.
+    /// Orthonormal directions of y that change the elements. `None` if all directions of y change
+    /// the elements.
     span: Option<Vec<Vec<f64>>>,
     /// Sizes by which the components of each load were divided.
     sizes: Vec<f64>,
@@ -37,12 +38,12 @@ pub(super) struct Hull {
 }
 
 impl Hull {
-    /// Finds the hull for p coordinates; coefficients up to the tolerance may be rounding.
+    /// Finds the hull for p coordinates. Coefficients up to the tolerance may be rounding.
     pub(super) fn new(elements: Vec<Element>, p: usize, tolerance: f64) -> Result<Self, HullError> {
         Self::of_sets(elements, p, tolerance, ELASTIC_SETS)
     }
 
-    /// Works like [`Self::new`]; blocks are sampled from this number of sets on.
+    /// Works like [`Self::new`]. Blocks with at least this number of sets are sampled.
     pub(super) fn of_sets(
         elements: Vec<Element>,
         p: usize,
@@ -123,7 +124,8 @@ impl Hull {
         Ok(hull)
     }
 
-    /// Merges blocks with a common load, because its compliance is the same in both.
+    /// Merges blocks with a common load, because the compliance of this load is the same in both
+    /// blocks.
     fn merge(&mut self) {
         let mut merged: Vec<Block> = Vec::new();
         for mut block in std::mem::take(&mut self.blocks) {
@@ -149,7 +151,7 @@ impl Hull {
         self.blocks.iter().map(Block::loads)
     }
 
-    /// Returns whether some blocks have only solutions for some compliances.
+    /// Returns whether some blocks contain only the solutions for some compliances.
     pub(super) fn is_sampled(&self) -> bool {
         let mut blocks = self.blocks.iter();
         blocks.any(|block| block.weights == Weights::Samples)

@@ -13,8 +13,8 @@ use crate::questions::Questions;
 /// The solutions of a part, or the reason why the part has no bounds.
 type OfPart<'q, 'm> = Result<ElasticSolutions<'q, 'm>, BoundsError>;
 
-/// The bounds of all reactions of a configuration. The solutions of a part are computed on first
-/// use.
+/// The bounds of all reactions of a configuration. The solutions of a part are computed at the
+/// first request.
 pub struct ReactionBounds<'q, 'm> {
     questions: &'q Questions<'m>,
     solution: &'q Solution,
@@ -40,7 +40,7 @@ impl<'m> Questions<'m> {
 }
 
 impl<'q, 'm> ReactionBounds<'q, 'm> {
-    /// Returns the solutions of a part; `None` if it has no redundant rows.
+    /// Returns the solutions of a part, or `None` if the part has no redundant rows.
     fn part(&self, k: usize) -> Option<&OfPart<'q, 'm>> {
         let part = &self.questions.parts()[k];
         if part.decision.redundancy() == 0 {
@@ -111,7 +111,7 @@ impl<'q, 'm> ReactionBounds<'q, 'm> {
                 ))
             }
             Some(Err(e)) => {
-                // A unique number has a value without bounds of other numbers.
+                // The value of a unique number does not depend on bounds of other numbers.
                 let configuration = self.questions.configuration(k)?;
                 if !configuration.judge(form)?.verdict.is_unique() {
                     return Err(e.clone());
@@ -133,8 +133,8 @@ impl<'q, 'm> ReactionBounds<'q, 'm> {
         }
     }
 
-    /// Returns the largest magnitudes of the force (N) and of the moment (N·m) of a joint or drive;
-    /// `None` for a load that is identically zero.
+    /// Returns the largest magnitudes of the force (N) and of the moment (N·m) of a joint or drive.
+    /// A magnitude is `None` for a load that is identically zero.
     ///
     /// # Errors
     /// [`BoundsError`]

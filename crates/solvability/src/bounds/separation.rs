@@ -36,7 +36,7 @@ pub(super) fn is_separated(vectors: &[Vec<f64>]) -> bool {
             .map(|j| (gain(j), j))
             .max_by(|a, b| a.0.total_cmp(&b.0));
         let Some((_, next)) = best.filter(|(gain, _)| *gain > SEPARATED) else {
-            // d·w ≤ −|residual|² for every vector d.
+            // Every vector d satisfies d·w ≤ −|residual|².
             return true;
         };
         used.push(next);
@@ -51,7 +51,7 @@ pub(super) fn is_separated(vectors: &[Vec<f64>]) -> bool {
             qr.q_transpose_mul(&mut solved);
             solved.truncate(used.len());
             if qr.steps() < used.len() || qr.r_diagonal().any(|r| r.abs() < SEPARATED) {
-                // The last vector depends on the others.
+                // The last vector depends on the other vectors.
                 return false;
             }
             qr.solve_r(&mut solved);

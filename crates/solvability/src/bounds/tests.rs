@@ -1,4 +1,4 @@
-//! The hull of small systems, compared with values by hand.
+//! The hull of small systems, compared with manually calculated values.
 
 use super::hull::{Element, Hull, HullError, Range};
 
@@ -33,7 +33,7 @@ fn a_weak_component_is_undecided() {
         ];
         Hull::new(elements, 2, tolerance).map(|hull| hull.sets)
     };
-    // The first component and the others are independent.
+    // The first component is independent of the other components.
     assert_eq!(with(1e-12, 0.0), Ok(1 + 1));
     assert_eq!(with(1e-8, 0.0), Err(HullError::Unclear { group: 0 }));
     assert_eq!(with(1e-3, 0.0), Ok(1 + 2));
@@ -48,8 +48,9 @@ fn a_weak_component_is_undecided() {
     assert!(ends.iter().all(|end| (end.value + 2.0).abs() < 1e-12));
 }
 
-/// Two loads with two components each: their monomials are the two squares and the product, which
-/// lies in the middle. If an end belongs to the product, no compliances reach it.
+/// Two loads with two components each. Their monomials are the two squares and the product, and the
+/// product lies between the squares. If an end belongs to the product, no compliances give this
+/// end.
 #[test]
 fn the_middle_of_two_joints_is_not_reached() {
     let mut next = numbers();
@@ -74,9 +75,10 @@ fn the_middle_of_two_joints_is_not_reached() {
     assert!(middles > 10 && squares > 100, "{middles} {squares}");
 }
 
-/// Loads A, B and C of two components each: (1 + x, y − 3), (−2x − 2y − 3, 2x + 1) and
-/// (x + 2, y − 1). The smallest x is −2, with all of C zero and in the mean of the sets of one
-/// component of A and one of B. Only C reaches it, because A alone gives −1 and B alone −1/2.
+/// Loads A, B and C of two components each: (1 + x, y − 3), (−2x − 2y − 3, 2x + 1) and (x + 2, y −
+/// 1). The smallest x is −2. It is found if all of C is zero, and in the mean of the sets of one
+/// component of A and one component of B. Only C gives this value, because A alone gives −1 and B
+/// alone −1/2.
 #[test]
 fn the_soft_loads_of_an_end_are_those_that_reach_it() {
     let elements = vec![
@@ -92,8 +94,8 @@ fn the_soft_loads_of_an_end_are_those_that_reach_it() {
     assert_eq!(lowest.groups, [2]);
 }
 
-/// One free component and loads with two components: load X is (a + z·y), shortest at
-/// y = −(z·a)/|z|². The largest magnitude is found by trying these values.
+/// A system with one free component and loads with two components. Load X is (a + z·y), which is
+/// shortest at y = −(z·a)/|z|². The largest magnitude is found if these values are tried.
 #[test]
 fn the_magnitude_is_that_of_a_vertex() {
     let mut next = numbers();
@@ -145,7 +147,7 @@ fn a_range_that_is_reached_is_not_called_bounds() {
     }
 }
 
-/// Many sets of many loads are not examined; a part that is too large for samples is refused.
+/// Many sets of many loads are not examined. A part that is too large for samples is rejected.
 #[test]
 fn too_many_sets_are_refused() {
     let mut next = numbers();
@@ -161,7 +163,7 @@ fn too_many_sets_are_refused() {
 }
 
 /// Two loads along x and y: (1 + x, 1 + y) and (x, y). For any compliances, x = y, because both
-/// components of a load have one compliance. In separate blocks x − y would be between −1 and 1.
+/// components of a load have one compliance. In separate blocks, x − y would be between −1 and 1.
 #[test]
 fn a_common_load_couples_its_components() {
     let elements = vec![
@@ -182,7 +184,7 @@ fn a_common_load_couples_its_components() {
 }
 
 /// Two loads of one component each in every coordinate: y_k = −a·c/(a + b) with any ratio a : b.
-/// Very large factors and very small compliances neither overflow nor vanish.
+/// Very large factors do not overflow, and very small compliances do not vanish.
 #[test]
 fn large_factors_restrict_nothing() {
     for p in [1, 3, 40] {

@@ -44,10 +44,11 @@ struct FreePart<'m> {
     mechanism: Cow<'m, Mechanism>,
     /// Length that makes C dimensionless (m).
     size: f64,
-    /// Factors of rows and columns with which C was equilibrated at the initial state.
+    /// Factors of rows and columns by which C was equilibrated at the initial state.
     row_factor: Vec<f64>,
     column_factor: Vec<f64>,
-    /// The smallest singular value at the start, and the smallest permitted one for kept rows.
+    /// The smallest singular value at the start, and the smallest permitted singular value of kept
+    /// rows.
     sigma: f64,
     required: f64,
     tolerance: f64,
@@ -63,10 +64,10 @@ pub struct CarriedSolution<'s> {
     pub q: &'s [f64],
     /// Work space that contains C, evaluated at this state.
     pub scratch: &'s Scratch,
-    /// Rows whose multipliers are zero in the solution, from 0.
+    /// Rows (from 0) whose multipliers are zero in the solution.
     pub dropped: &'s [usize],
-    /// For each row in `dropped`, the vector z with `Cᵀ·z = 0` that states how this row depends on
-    /// the other rows. z has one element for each row of C; the rows are in SI units.
+    /// For each row in `dropped`, the vector z with `Cᵀ·z = 0`. The vector z states how the row
+    /// depends on the other rows. z has one element for each row of C; the rows are in SI units.
     pub dependencies: &'s [Vec<f64>],
     /// The multipliers of all rows.
     pub multipliers: &'s [f64],
@@ -96,9 +97,9 @@ impl<'m> CarriedChoices<'m> {
         })
     }
 
-    /// Returns the multipliers of all rows for each choice, or the error of a choice that selects
-    /// no solution at this state. If the given multipliers of a part are NaN, the returned ones are
-    /// NaN, too.
+    /// Returns the multipliers of all rows for each choice. If a choice does not select a solution
+    /// at this state, the function returns an error for it. If the given multipliers of a part are
+    /// NaN, the returned multipliers of the part are NaN, too.
     #[must_use]
     pub fn at(&self, at: &CarriedSolution<'_>) -> Vec<Result<Vec<f64>, ChoiceError>> {
         let mut found = vec![Ok(at.multipliers.to_vec()); self.count];
@@ -208,7 +209,8 @@ impl<'m> FreePart<'m> {
                 rows: z.nrows(),
             });
         }
-        // Without the rows D, the smallest singular value is at least σ_r times that of Z_D.
+        // Without the rows D, the smallest singular value is at least σ_r times the smallest
+        // singular value of Z_D.
         let weakest = singular_values(&z.select_rows(rows)).last().copied();
         let smallest = self.sigma * weakest.unwrap_or(1.0);
         if smallest < self.required {

@@ -1,11 +1,11 @@
-//! Numbers of one solution among several, marked by their type.
+//! Numbers of one solution among several. The type of these numbers marks them as chosen.
 
 use super::{Label, NamedChoice};
 
-/// Numbers of one solution of the equations of motion: the solution with zero multipliers in some
-/// rows, or the solution of a named choice. The verdicts decide which of these numbers are the same
-/// in every solution; the numbers themselves do not show it. The type therefore returns them only
-/// by a method whose name marks them as chosen.
+/// Numbers of one solution of the equations of motion. The solution has zero multipliers in some
+/// rows, or a named choice selects it. The verdicts decide which of these numbers are the same in
+/// every solution; the numbers themselves do not show it. The type therefore returns the numbers
+/// only by a method whose name marks them as chosen.
 ///
 /// ```
 /// use pfaff_solvability::ChosenValues;
@@ -76,7 +76,7 @@ impl<T> ChosenValues<T> {
         self.dropped.extend_from_slice(dropped);
     }
 
-    /// Returns the numbers of this choice as a buffer that the solver fills.
+    /// Returns the numbers of this choice as a buffer that the solver overwrites.
     pub fn to_be_written(&mut self) -> &mut [T] {
         &mut self.values
     }

@@ -17,7 +17,7 @@ use crate::existence::may_miss;
 use crate::groups::{RequestError, check};
 use crate::sparse::{blocks, rows_of};
 
-/// `M·a + Cᵀ·λ = Q`, `C·a = Γ` at one instant.
+/// The equations `M·a + Cᵀ·λ = Q`, `C·a = Γ` at one instant.
 ///
 /// ```
 /// use linalg::{Matrix};
@@ -50,8 +50,8 @@ pub struct Equations {
     pub terms: RowTerms,
 }
 
-/// Sizes of the terms in the sums of the rows of `C·a = Γ`: a difference that is small relative to
-/// them is rounding. See [`model::Scales::terms`].
+/// Sizes of the terms in the sums of the rows of `C·a = Γ`. A difference that is small relative to
+/// these sizes is rounding. See [`model::Scales::terms`].
 #[derive(Clone, Debug, PartialEq)]
 pub struct RowTerms {
     /// Sizes for the entries of Γ, m + h values. These sizes are zero if Γ is exact.
@@ -63,7 +63,7 @@ pub struct RowTerms {
 }
 
 impl RowTerms {
-    /// Returns the sizes for a matrix whose columns have one unit, with an exact Γ.
+    /// Returns the sizes for a matrix whose columns have the same unit, with an exact Γ.
     #[must_use]
     pub fn of_matrix(c: &Matrix) -> Self {
         let extent = |i: usize| c.row(i).iter().map(|x| x.abs()).sum();
@@ -94,9 +94,9 @@ impl RowTerms {
         largest * self.extents[i] + self.gamma[i]
     }
 
-    /// Returns the largest of these accelerations and of the accelerations that the forces alone
-    /// would cause, in their units. If the rows hold a body fixed, its computed accelerations are
-    /// rounding errors of these values.
+    /// Returns the largest of the accelerations a and of the accelerations that the forces alone
+    /// would cause, in their units. If the rows fix a body, the computed accelerations of the body
+    /// are rounding errors of these values.
     fn largest(&self, a: &[f64], (mass, force): (&[f64], &[f64])) -> f64 {
         let alone = force.iter().zip(mass).map(
             |(force, mass)| {
@@ -116,8 +116,8 @@ pub struct Solution {
     pub acceleration: Vec<f64>,
     /// Multipliers λ, zero for the dropped rows. All other solutions are `λ + Z·y`.
     pub multipliers: ChosenValues<f64>,
-    /// Reactions that have no finite value in the motion, although their multipliers are finite:
-    /// [`crate::no_finite_reactions`]. The list is empty unless the caller requests it.
+    /// Reactions that have no finite value in the motion, although their multipliers are finite;
+    /// see [`crate::no_finite_reactions`]. The list is empty unless the caller requests it.
     pub no_finite: Vec<Arc<NoFiniteReaction>>,
 }
 
@@ -142,7 +142,7 @@ impl Equations {
         }
     }
 
-    /// Computes one λ, with zeros for the dropped rows. All other solutions are `λ + Z·y`.
+    /// Computes one λ in which the dropped rows have zeros. All other solutions are `λ + Z·y`.
     ///
     /// # Errors
     /// - [`ChoiceError::Undecided`]: the rank is undecided, so the independent rows are not
@@ -158,10 +158,10 @@ impl Equations {
         self.solution(rows).map(|solution| solution.multipliers)
     }
 
-    /// Works like [`Equations::multipliers`], with the accelerations.
+    /// Works like [`Equations::multipliers`], and also returns the accelerations.
     ///
     /// # Errors
-    /// Same errors as [`Equations::multipliers`].
+    /// Returns the same errors as [`Equations::multipliers`].
     pub fn solution(&self, rows: impl Into<RowDecision>) -> Result<Solution, ChoiceError> {
         self.solution_within(&rows.into(), |_, _| 0.0)
     }
@@ -188,7 +188,7 @@ impl Equations {
     }
 
     /// Works like [`Equations::solution`]. For a combination of rows at given accelerations,
-    /// `explained` returns the difference that data within a stated tolerance explain.
+    /// `explained` must return the difference that data within a stated tolerance can cause.
     fn solution_within(
         &self,
         rows: &RowDecision,
@@ -244,11 +244,11 @@ fn evaluated(mechanism: &Mechanism, t: f64, q: &[f64], v: &[f64]) -> Result<Scra
 
 /// Returns one solution of the equations of a mechanism of any size at time t, coordinates q and
 /// velocities v, which must satisfy the constraints. The function uses dense matrices, or sparse
-/// ones if dense ones would be too large.
+/// matrices if dense matrices would be too large.
 ///
 /// # Errors
-/// Same errors as [`Equations::of`] and [`Equations::multipliers`]. With sparse matrices, every
-/// coordinate needs a mass.
+/// Returns the same errors as [`Equations::of`] and [`Equations::multipliers`]. With sparse
+/// matrices, every coordinate needs a mass.
 pub fn solution(
     mechanism: &Mechanism,
     (t, q, v): (f64, &[f64], &[f64]),
@@ -267,7 +267,7 @@ pub fn solution(
     })
 }
 
-/// Returns the solution with sparse matrices under the given forces (n_v values) in place of the
+/// Returns the solution with sparse matrices under the given forces (n_v values), which replace the
 /// forces of the mechanism.
 pub(crate) fn solution_under(
     mechanism: &Mechanism,
@@ -333,8 +333,9 @@ fn check_rows(rows: &RowDecision, m: usize) -> Result<(), ChoiceError> {
 }
 
 /// Checks that the dropped rows agree with these accelerations, each of which has the rounding
-/// error of `largest`. If a row differs by more than the rounding of its own terms, `implied`
-/// returns the terms of the kept rows in it and the difference that the data explain.
+/// error of `largest`. `implied` is called if a row differs by more than the rounding of its own
+/// terms. The function `implied` must return the terms of the kept rows in this row and the
+/// difference that the data can cause.
 fn agree<R: Iterator<Item = (usize, f64)>>(
     rows: &RowDecision,
     row: impl Fn(usize) -> R,

@@ -21,7 +21,7 @@ pub enum ChoiceError {
     /// The equations cannot be solved on the kept rows.
     #[error(transparent)]
     Saddle(#[from] SaddleError),
-    /// Derivatives of forces are needed, and a force calls an external function.
+    /// Derivatives of forces are required, but a force calls an external function.
     #[error(transparent)]
     Called(#[from] CalledForce),
     /// Redundant rows require different accelerations, so no reactions exist.
@@ -33,7 +33,7 @@ pub enum ChoiceError {
         row: usize,
         /// Difference of the accelerations.
         by: f64,
-        /// Largest difference that rounding explains.
+        /// Largest difference that rounding can cause.
         allowed: f64,
     },
     /// A weight or compliance is negative or not a number.

@@ -1,4 +1,4 @@
-//! All solutions `λ₀ + Z·y` at one configuration, and those that a rule selects.
+//! All solutions `λ₀ + Z·y` at one configuration, and the solutions that a rule selects.
 
 use linalg::Matrix;
 use model::{ConstraintId, RowRanges, System};
@@ -11,7 +11,7 @@ use crate::groups::{ReactionForms, RequestError};
 /// Returns `C_Xᵀ·Z_X` of equilibrated rows X.
 type Cancelling<'a> = Box<dyn Fn(&RowRanges) -> Result<Matrix, RequestError> + 'a>;
 
-/// The reactions at a configuration, with the directions in which their multipliers are free.
+/// The reactions at a configuration, and the directions in which their multipliers are free.
 pub(crate) struct Choosing<'a> {
     pub(crate) reactions: &'a ReactionForms<'a>,
     pub(crate) free: FreeMultipliers<'a>,
@@ -89,7 +89,7 @@ impl Choosing<'_> {
         minimise_in(&self.free, lambda_0, &terms)
     }
 
-    /// Checks that a misfit causes no load through nonholonomic rows: these rows slip, and a load
+    /// Checks that a misfit causes no load through nonholonomic rows. These rows slip, so a load
     /// through them does not last.
     fn check_fits(&self, terms: &[Term], misfits: &[Misfit]) -> Result<(), ChoiceError> {
         let layout = self.reactions.mechanism.layout();

@@ -62,7 +62,7 @@ pub(crate) fn label(layout: &Layout, choice: &Choice, rigid: &[ConstraintId]) ->
         Choice::Elimination(rows) => {
             let known = rows.iter().filter_map(|&i| layout.labels.get(i));
             let labels: Vec<RowLabel> = known.cloned().collect();
-            // The label is repeated with every number, so it lists only the first rows.
+            // The label is repeated with every number. Therefore it lists only the first rows.
             let (first, more) = if labels.len() > NAMED_ROWS {
                 labels.split_at(FIRST_NAMED)
             } else {

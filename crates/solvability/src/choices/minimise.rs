@@ -9,9 +9,9 @@ use super::multipliers::FreeMultipliers;
 use crate::groups::{LinearForm, check, check_finite};
 use crate::matrices::Solvability;
 
-/// Returns the λ that minimises `Σ weight·(ℓᵀ·λ)²` over all solutions `λ₀ + Z·y`. With the rows
-/// `√weight·ℓᵀ` in L, the minimum satisfies `Zᵀ·Lᵀ·L·Z·y = −Zᵀ·Lᵀ·L·λ₀`, which is solved by QR of
-/// L·Z. Components of y that change none of the numbers ℓᵀ·λ stay zero.
+/// Returns the λ that minimises `Σ weight·(ℓᵀ·λ)²` over all solutions `λ₀ + Z·y`. Let L contain the
+/// rows `√weight·ℓᵀ`. The minimum satisfies `Zᵀ·Lᵀ·L·Z·y = −Zᵀ·Lᵀ·L·λ₀`, which is solved by QR of
+/// L·Z. Components of y that do not change any of the numbers ℓᵀ·λ stay zero.
 ///
 /// ```
 /// use linalg::Matrix;
@@ -59,7 +59,7 @@ pub(super) struct Term {
     pub(super) misfit: f64,
 }
 
-/// Returns Zᵀ·Σ misfit·ℓ, and the size of its terms.
+/// Returns Zᵀ·Σ misfit·ℓ, and the size of the terms of this sum.
 pub(super) fn strain(free: &FreeMultipliers<'_>, terms: &[Term]) -> (Vec<f64>, f64) {
     let (mut sum, mut most) = (vec![0.0; free.z.ncols()], 0.0);
     for term in terms.iter().filter(|term| term.misfit != 0.0) {
@@ -126,14 +126,14 @@ pub(super) fn minimise_in(
 }
 
 /// Selects independent columns of a matrix of images (rows of norm one or less). The remaining
-/// columns depend on the selected ones.
+/// columns depend on the selected columns.
 pub(super) fn independent_columns(rows: &[&[f64]], columns: usize, tolerance: f64) -> Vec<usize> {
     let matrix = Matrix::from_fn(rows.len(), columns, |i, j| rows[i][j]);
     let qr = PivotedQr::of_columns(&matrix);
     qr.permutation()[..count(&qr, tolerance)].to_vec()
 }
 
-/// Returns the number of pivots above a tolerance.
+/// Returns the number of pivots that are above a tolerance.
 fn count(qr: &PivotedQr, tolerance: f64) -> usize {
     qr.r_diagonal().filter(|r| r.abs() > tolerance).count()
 }

@@ -27,8 +27,8 @@ impl<'a> FreeMultipliers<'a> {
         }
     }
 
-    /// Returns `λ − Z·(Z_D)⁻¹·λ_D`: the solution that is exactly zero in the rows D, which
-    /// determine y.
+    /// Returns `λ − Z·(Z_D)⁻¹·λ_D`. The result is the solution that is exactly zero in the rows D,
+    /// which determine y.
     pub(crate) fn eliminated(&self, lambda: &[f64], rows: &[usize]) -> Vec<f64> {
         let qr = PivotedQr::of_columns(&self.z.select_rows(rows));
         let mut lambda = lambda.to_vec();
@@ -54,8 +54,8 @@ impl<'a> FreeMultipliers<'a> {
 }
 
 impl Solvability {
-    /// Returns one dependency of the rows of the matrix for each redundant row (a coefficient for
-    /// each row).
+    /// Returns one dependency of the rows of the matrix for each redundant row. A dependency has a
+    /// coefficient for each row.
     #[must_use]
     pub fn dependencies(&self) -> Vec<Vec<f64>> {
         let free = FreeMultipliers::of(self);

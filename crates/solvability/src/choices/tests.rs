@@ -1,12 +1,12 @@
-//! Numbers of one solution, and their rounding.
+//! The numbers of one solution, and their rounding errors.
 
 use super::*;
 use crate::sketch::{Kind, door};
 use joints::space3::Pose;
 use model::System;
 
-/// The value 0.1 + 0.2 − 0.3 = 2⁻⁵⁴ is the rounding of one addition. A difference of 3e-15 of 0.3
-/// is not rounding, because each of the two numbers is accurate to 3e-17.
+/// The value 0.1 + 0.2 − 0.3 = 2⁻⁵⁴ is the rounding error of one addition. A difference of 3e-15
+/// relative to 0.3 is not a rounding error, because each of the two numbers is accurate to 3e-17.
 #[test]
 fn what_two_roundings_leave_is_zero_and_more_is_not() {
     let (mechanism, q, analysis) = door(&[Kind::Revolute; 2], Pose::GROUND).judged();

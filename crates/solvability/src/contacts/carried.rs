@@ -1,4 +1,4 @@
-//! Whether one-sided joints can all stay closed, along a motion whose rows are factored.
+//! Whether one-sided joints can all stay closed along a motion whose rows are factored.
 
 use linalg::kernels::{dot, max_abs};
 use model::{ConstraintId, Mechanism, Scratch, System};
@@ -17,12 +17,12 @@ pub struct CarriedContacts {
 pub struct Closure {
     /// Whether no solution presses on all joints, beyond rounding.
     pub is_open: bool,
-    /// The joints that take part in opening, if they are clear.
+    /// The joints that take part in opening, if these are clear.
     pub opening: Vec<ConstraintId>,
 }
 
-/// Returns the force of a one-sided joint for a multiplier of 1 of its gap. Its row of C is the
-/// rate of the gap, multiplied by this number.
+/// Returns the force of a one-sided joint for a multiplier of 1 of its gap. The row of C that
+/// belongs to the gap, multiplied by this number, is the rate of the gap.
 pub(super) fn pressing_force(mechanism: &Mechanism, scratch: &Scratch, id: ConstraintId) -> f64 {
     let map = mechanism.reactions(scratch).wrench_map(id);
     let force = mechanism.space().forces().map(|c| map[(c, 0)].powi(2));
@@ -30,7 +30,7 @@ pub(super) fn pressing_force(mechanism: &Mechanism, scratch: &Scratch, id: Const
 }
 
 impl CarriedContacts {
-    /// Returns the one-sided joints; `None` if there are none.
+    /// Returns the one-sided joints, or `None` if there are no such joints.
     #[must_use]
     pub fn of(mechanism: &Mechanism) -> Option<Self> {
         let layout = mechanism.layout();

@@ -18,11 +18,11 @@ use crate::verdict::Verdict;
 pub struct ContactCondition {
     /// The joint.
     pub joint: ConstraintId,
-    /// What the joint must do.
+    /// The condition that the joint must satisfy.
     pub kind: ConditionKind,
 }
 
-/// What a contact must do.
+/// A kind of condition that a contact must satisfy.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub enum ConditionKind {
@@ -32,27 +32,27 @@ pub enum ConditionKind {
     Grips,
 }
 
-/// Polygons that stand for the circle `|S| ≤ μ·N`.
+/// Polygons that approximate the circle `|S| ≤ μ·N`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Polygon {
-    /// It contains the circle.
+    /// The polygon contains the circle.
     Outer,
-    /// The circle contains it.
+    /// The circle contains the polygon.
     Inner,
 }
 
-/// `value + row·y`
+/// The number `value + row·y`.
 #[derive(Clone, Debug)]
 pub(super) struct LoadNumber {
     pub(super) row: Vec<f64>,
     pub(super) value: f64,
 }
 
-/// A contact that grips.
+/// A contact with friction.
 pub(super) struct GripConditions {
     pub(super) joint: ConstraintId,
     pub(super) friction: f64,
-    /// The force N that presses it.
+    /// The force N that presses the contact.
     load: LoadNumber,
     /// The components of the force S along orthonormal directions.
     slip: Vec<LoadNumber>,
@@ -68,7 +68,7 @@ pub(super) struct Cluster {
     pub(super) grips: Vec<GripConditions>,
     /// The conditions of the half spaces of `permitted`.
     pub(super) conditions: Vec<ContactCondition>,
-    /// The permitted loads, with the outer polygons of contacts that grip.
+    /// The permitted loads, with the outer polygons of contacts with friction.
     pub(super) permitted: Polyhedron,
     /// Size of the loads (N).
     size: f64,
@@ -130,8 +130,8 @@ impl Cluster {
         }
     }
 
-    /// Returns the half spaces of one-sided joints, and of contacts that grip with these
-    /// coefficients of friction, with their conditions.
+    /// Returns the half spaces of one-sided joints, and of contacts with these coefficients of
+    /// friction. Each half space has its condition.
     pub(super) fn half_spaces(
         &self,
         friction: impl Fn(&GripConditions) -> f64,
@@ -270,7 +270,7 @@ impl GripConditions {
 struct ConditionForms {
     joint: ConstraintId,
     friction: Option<f64>,
-    /// The part and the form of N, or a constant force.
+    /// The part and the linear form of N, or a constant force.
     load: Result<(usize, LinearForm), f64>,
     /// The part and the components of S.
     slip: Vec<(usize, LinearForm)>,
@@ -339,7 +339,8 @@ fn cluster<'s>(
         cluster.parts.push((k, cluster.p));
         cluster.p += decision.redundancy();
     }
-    // Loads that vanish are rounding of the others, and of the forces that accelerate the bodies.
+    // Loads that vanish are rounding errors of the other loads, and of the forces that accelerate
+    // the bodies.
     let mass = questions
         .mechanism()
         .mass()
@@ -444,9 +445,9 @@ fn press(
 }
 
 impl Configuration<'_> {
-    /// Returns the force N with which a joint presses; `None` if the joint is not one-sided. From
-    /// `M·v̇ + Cᵀ·λ = Q`, the multiplier of a gap that opens towards positive values is negative
-    /// while the joint presses.
+    /// Returns the force N with which a joint presses, or `None` if the joint is not one-sided.
+    /// According to `M·v̇ + Cᵀ·λ = Q`, the multiplier of a gap that opens towards positive values
+    /// is negative while the joint presses.
     pub(crate) fn press(&self, id: ConstraintId) -> Result<Option<LinearForm>, RequestError> {
         let group = &self.layout().groups[id.0];
         let Some(side) = group.limits.open_side else {

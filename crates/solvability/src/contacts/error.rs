@@ -14,7 +14,7 @@ pub enum PermittedError {
     /// The rank is undecided.
     #[error("the rank is undecided")]
     Rank,
-    /// Whether a number is unique is undecided.
+    /// It is undecided whether a number is unique.
     #[error("the verdict on the load of `{0}` is undecided")]
     Verdict(String),
     /// A load is too close to a limit of a contact.
@@ -29,7 +29,7 @@ pub enum PermittedError {
     /// The request is invalid.
     #[error(transparent)]
     Request(#[from] RequestError),
-    /// There is no solution of the equations.
+    /// The equations have no solution.
     #[error(transparent)]
     Choice(#[from] ChoiceError),
 }

@@ -1,4 +1,5 @@
-//! Whether contacts that grip hold, and the least coefficient of friction with which they can.
+//! Whether contacts with friction prevent slip, and the least coefficient of friction with which
+//! they can.
 
 use model::ConstraintId;
 
@@ -8,18 +9,18 @@ use super::error::PermittedError;
 use crate::limits::{GRIP_ACCURACY, LARGEST_FRICTION};
 use crate::polyhedra::polyhedron::{Emptiness, Extremum, Polyhedron};
 
-/// Whether contacts grip.
+/// Whether contacts prevent slip.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 pub enum Holds {
-    /// No permitted sharing of the loads makes a contact slip.
+    /// No permitted distribution of the loads makes a contact slip.
     Always,
-    /// Some sharing of the loads makes no contact slip, others do: no promise.
+    /// Some distributions of the loads make a contact slip, and others do not.
     Sometimes,
-    /// Every sharing of the loads makes a contact slip.
+    /// Every distribution of the loads makes a contact slip.
     Never,
-    /// The friction is within the accuracy of the polygons that stand for circles.
+    /// The friction is within the accuracy of the polygons that approximate circles.
     Undecided,
 }
 
@@ -36,22 +37,23 @@ impl Holds {
     }
 }
 
-/// The verdict on contacts that grip and depend on each other.
+/// The verdict on contacts with friction that depend on each other.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct GripVerdict {
-    /// The joints that grip.
+    /// The joints with friction.
     pub joints: Vec<ConstraintId>,
-    /// Whether they hold with the stated coefficients of friction; `None` if one-sided joints
-    /// cannot all stay closed.
+    /// Whether the contacts prevent slip with the stated coefficients of friction. `None` if
+    /// one-sided joints cannot all stay closed.
     pub holds: Option<Holds>,
-    /// Bounds of the least coefficient of friction, equal for all of these joints, with which some
-    /// sharing of the loads makes none of them slip. `None` if no coefficient is large enough.
+    /// Bounds of the least coefficient of friction with which some distribution of the loads makes
+    /// none of these joints slip. The coefficient is equal for all of these joints. `None` if no
+    /// coefficient is large enough.
     pub least: Option<[f64; 2]>,
 }
 
 impl PermittedReactions<'_, '_> {
-    /// Returns the verdicts on contacts that grip.
+    /// Returns the verdicts on contacts with friction.
     ///
     /// # Errors
     /// [`PermittedError::Unclear`]
@@ -102,8 +104,9 @@ impl Cluster {
         })
     }
 
-    /// Returns a coefficient of friction with which every sharing makes a contact slip (or 0), and
-    /// one with which some sharing makes none slip, as close as possible.
+    /// Returns two coefficients of friction that are as close as possible. With the first
+    /// coefficient (or 0), every distribution of the loads makes a contact slip. With the second
+    /// coefficient, some distribution makes no contact slip.
     fn least(&self) -> Option<[f64; 2]> {
         let emptiness = |friction: f64, polygon: Polygon| {
             let (_, halves) = self.half_spaces(|_| friction, polygon);
@@ -133,7 +136,8 @@ impl Cluster {
     }
 }
 
-/// Returns the last coefficient without and the first with a property, which larger ones have, too.
+/// Returns the last coefficient without a property and the first coefficient with it. All larger
+/// coefficients must also have the property.
 fn bisected([mut without, mut with]: [f64; 2], has: impl Fn(f64) -> bool) -> [f64; 2] {
     while with - without > GRIP_ACCURACY * with {
         let middle = f64::midpoint(without, with);

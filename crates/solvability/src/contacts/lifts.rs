@@ -1,10 +1,10 @@
-//! The one-sided joints that open if they cannot all stay closed: accelerations by Gauss' principle
-//! of least constraint.
+//! The one-sided joints that open if not all one-sided joints can stay closed. The accelerations
+//! are computed by Gauss' principle of least constraint.
 //!
-//! The accelerations minimise `½·(v̇ − M⁻¹·Q)ᵀ·M·(v̇ − M⁻¹·Q)` under the rows that hold in both
-//! directions and `g̈ ≥ 0` for the gaps g of one-sided joints. They are unique if M is positive
-//! definite on the motions that the rows permit; the forces need not be. In terms of the pressing
-//! forces N ≥ 0: `g̈ = r + W·N ≥ 0`, `Nᵀ·g̈ = 0`. Rolling rows of a joint that opens are kept: the
+//! The accelerations minimise `½·(v̇ − M⁻¹·Q)ᵀ·M·(v̇ − M⁻¹·Q)` under the two-sided rows and `g̈ ≥
+//! 0` for the gaps g of one-sided joints. The accelerations are unique if M is positive definite on
+//! the motions that the rows permit. The forces need not be unique. In terms of the pressing forces
+//! N ≥ 0: `g̈ = r + W·N ≥ 0`, `Nᵀ·g̈ = 0`. Rolling rows of a joint that opens are kept, because the
 //! accelerations are those at the instant of opening. See C. Glocker, Set-Valued Force Laws,
 //! Springer 2001, chapter 9.
 
@@ -20,8 +20,9 @@ use crate::limits::OPENING;
 use crate::polyhedra::complementarity::support_motion;
 use crate::pose::{dimensionless, evaluated, uncertainty};
 
-/// Returns the joints that open at time t, coordinates q and velocities v: those whose gaps
-/// accelerate, or those that take part in opening if the accelerations are not clear.
+/// Returns the joints that open at time t, coordinates q and velocities v. The joints that open are
+/// the joints whose gaps accelerate. If the accelerations are not clear, they are the joints that
+/// take part in opening.
 #[must_use]
 pub fn opened(
     mechanism: &Mechanism,
@@ -99,7 +100,7 @@ pub fn lifted(
         let force: Vec<f64> = equations.c.row(row).iter().map(|c| rate * c).collect();
         pushed.push(accelerations(&force, &zeros)?);
     }
-    // Gaps that two-sided joints keep closed have no mobility but rounding.
+    // Gaps that two-sided joints keep closed have only a mobility due to rounding.
     let mobility = |&(_, row, rate): &(ConstraintId, usize, f64)| -> f64 {
         let each = equations.c.row(row).iter().zip(&equations.mass);
         let each = each.map(|(c, m)| if *m > 0.0 { c * c / m } else { 0.0 });
@@ -124,7 +125,8 @@ pub fn lifted(
     };
     let r: Vec<f64> = (0..n).map(r).collect();
     let found = support_motion(&w, &r)?;
-    // Without any other joint: accelerations that other joints prevent are rounding.
+    // The acceleration without any other joint. Accelerations that other joints prevent are
+    // rounding errors of it.
     let unheld = |&(_, row, rate): &(ConstraintId, usize, f64)| -> f64 {
         let loads = equations.force.iter().zip(&equations.mass);
         let each = equations.c.row(row).iter().zip(loads);

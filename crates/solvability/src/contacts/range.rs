@@ -25,15 +25,15 @@ pub struct PermittedRange {
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 pub enum RangeKind {
-    /// One value only. A number that is not unique is then unique by the signs of the forces.
+    /// One value only. A number that is not unique is then made unique by the signs of the forces.
     Point,
     /// All values between two ends.
     Interval,
-    /// All values above or below one end: a preload is possible.
+    /// All values above or below one end, so a preload is possible.
     HalfLine,
-    /// All values: a preload is possible in both directions.
+    /// All values, so a preload is possible in both directions.
     Line,
-    /// No value: the contacts cannot all stay closed.
+    /// No value, because the contacts cannot all stay closed.
     Empty,
 }
 
@@ -55,26 +55,28 @@ impl RangeKind {
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub enum PermittedEnd {
-    /// The number reaches this value (N, N·m). For every permitted sharing, its distance from the
-    /// end is the sum of the margins of these conditions, multiplied by their weights ≥ 0.
+    /// The number reaches this value (N, N·m). For every permitted distribution of the loads, the
+    /// distance of the number from the end is the sum of the margins of these conditions,
+    /// multiplied by their weights ≥ 0.
     Reached {
         /// The value.
         value: f64,
         /// The conditions with their weights.
         weights: Vec<(ContactCondition, f64)>,
-        /// The forces with which one-sided joints press in a sharing that reaches the value (N).
+        /// The forces (N) with which one-sided joints press in a distribution that reaches the
+        /// value.
         pressing: Vec<(ConstraintId, f64)>,
     },
     /// The number has no limit.
     Unlimited {
-        /// Changes of components of reactions without an external load (N, N·m), which the
-        /// contacts permit in any multiple, and which change the number by 1.
+        /// Changes of components of reactions without an external load (N, N·m) that change the
+        /// number by 1. The contacts permit these changes in any multiple.
         preload: Vec<(ConstraintId, &'static str, f64)>,
     },
 }
 
 impl PermittedRange {
-    /// Returns whether the number has one value in all solutions, whatever the contacts permit.
+    /// Returns whether the number has one value in all solutions, for any permitted loads.
     #[must_use]
     pub fn is_unique(&self) -> bool {
         let is_free = |end: &PermittedEnd| matches!(end, PermittedEnd::Reached { weights, .. } if weights.is_empty());
@@ -85,7 +87,7 @@ impl PermittedRange {
 }
 
 impl PermittedEnd {
-    /// Returns the value, if the number reaches one.
+    /// Returns the value if the number reaches only one value.
     #[must_use]
     pub fn value(&self) -> Option<f64> {
         match self {

@@ -1,4 +1,4 @@
-//! Contacts with surfaces that a scene describes as two-sided, although they may pull.
+//! Contacts with surfaces that a scene describes as two-sided. Such contacts may pull.
 
 use linalg::kernels::{max_abs, norm};
 use model::start::scene_size;
@@ -15,7 +15,7 @@ pub struct TwoSidedContacts {
 }
 
 impl TwoSidedContacts {
-    /// Returns the contacts of a mechanism; `None` if there are none.
+    /// Returns the contacts of a mechanism, or `None` if the mechanism has no contacts.
     #[must_use]
     pub fn of(mechanism: &Mechanism) -> Option<Self> {
         let layout = mechanism.layout();
@@ -34,9 +34,9 @@ impl TwoSidedContacts {
         &self.joints
     }
 
-    /// Returns the force with which each contact pulls at time t, coordinates q and velocities v
-    /// (N), for these multipliers (m + h). It is zero for a contact that presses and for a force
-    /// that is rounding of the loads, and NaN if its multiplier is NaN.
+    /// Returns the force (N) with which each contact pulls at time t, coordinates q and velocities
+    /// v, for these multipliers (m + h). The force is zero for a contact that presses and for a
+    /// force that is rounding of the loads. The force is NaN if its multiplier is NaN.
     #[must_use]
     pub fn pulls(
         &self,
@@ -51,8 +51,8 @@ impl TwoSidedContacts {
         let mut block = Vec::new();
         let ids = layout.constraint_ids();
         let loads = ids.map(|id| norm(&reactions.reaction_in(&mut block, id, multipliers).force));
-        // Without loads, forces are rounding of those that would turn the velocities round within
-        // the size of the mechanism.
+        // Without loads, a force is compared with the force that would reverse the velocities
+        // within the size of the mechanism. Smaller forces are rounding.
         let turning = 2.0 * mechanism.kinetic_energy(v) / scene_size(mechanism, q);
         let size = loads.fold(max_abs(&s.force).max(turning), f64::max);
         // The gap of a surface is positive outside, so its multiplier is negative while it presses.

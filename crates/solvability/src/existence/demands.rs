@@ -13,13 +13,14 @@ pub struct Demand {
     /// The drive.
     pub drive: String,
     /// The driven joint and the joint coordinate. `None` if the drive has no joint at its reference
-    /// point, or replaces the joint.
+    /// point, or if the drive replaces the joint.
     pub joint: Option<(String, &'static str)>,
     /// Name of the joint coordinate.
     pub measure: &'static str,
     /// Whether the joint coordinate is an angle.
     pub angular: bool,
-    /// Change of the joint coordinate since the start, its rate and its acceleration.
+    /// The change of the joint coordinate since the start, the rate of the coordinate and its
+    /// acceleration.
     pub prescribed: [f64; 3],
 }
 
@@ -29,7 +30,7 @@ impl Demand {
     pub(super) fn of(mechanism: &Mechanism, id: ConstraintId, s: &Scratch) -> Option<Self> {
         let groups = &mechanism.layout().groups;
         let group = &groups[id.0];
-        // The unwrapped angles follow after the prescribed motion.
+        // The unwrapped angles follow the prescribed motion in the list.
         let [prescribed, ..] = *mechanism.prescribed(id, s) else {
             return None;
         };

@@ -1,7 +1,7 @@
 //! Finds drives that cannot follow their prescribed motion, at one configuration and along the
-//! motion. The rank decision prefers rows of joints to rows of drives: if a redundant row can be
-//! one of a drive, it is. The violated row then belongs to a drive, and no joint is named as the
-//! cause, however much the drives differ.
+//! motion. The rank decision prefers rows of joints to rows of drives. If a redundant row can be a
+//! row of a drive, a row of a drive is chosen. The violated row then belongs to a drive. Therefore
+//! no joint is named as the cause, for any difference of the drives.
 
 use std::cell::OnceCell;
 
@@ -19,9 +19,9 @@ use crate::state::check_configuration;
 /// Returns contradictions between drives and the other constraints at time t and coordinates q.
 /// Drives may prescribe different positions or velocities, or may prescribe a motion that the
 /// joints prevent. Positions come before velocities, and the largest excess comes first. Velocities
-/// are not needed. At q, the joints must be satisfied, and so must each drive that is independent
-/// of them and of the drives before it. The result is empty if the rank is undecided in `f64`, or
-/// if there are more than [`ONE_PART`] rows.
+/// are not needed. At q, the joints must be satisfied. Each drive that is independent of the joints
+/// and of the previous drives must also be satisfied. The result is empty if the rank is undecided
+/// in `f64`, or if there are more than [`ONE_PART`] rows.
 ///
 /// # Errors
 /// - [`AnalysisError::State`]: t or q is not finite, or q has not n_q entries.
@@ -39,13 +39,14 @@ pub fn contradicting_drives(
     compared(mechanism, t, q, ranks.as_ref(), Notice::Rounding)
 }
 
-/// Returns the first contradiction of drives between the start and the last time, checked at a
-/// dozen positions after the start. The positions follow the drives. Returns `None` if the drives
-/// cannot be followed or if there are more than [`ONE_PART`] rows. The function ignores rows that
-/// depend on each other only at the start, and differences that are too small to stop a simulation.
+/// Returns the first contradiction of drives between the start and the last time. The drives are
+/// checked at a dozen positions after the start. The bodies follow the drives to these positions.
+/// Returns `None` if the drives cannot be followed or if there are more than [`ONE_PART`] rows. The
+/// function ignores rows that depend on each other only at the start, and differences that are too
+/// small to stop a simulation.
 ///
 /// # Errors
-/// Same errors as [`contradicting_drives`].
+/// Returns the same errors as [`contradicting_drives`].
 pub fn contradicting_drives_along(
     mechanism: &Mechanism,
     start: &[f64],
@@ -57,8 +58,8 @@ pub fn contradicting_drives_along(
         return Ok(None);
     }
     let ranks = StatedRanks::at(mechanism, 0.0, start)?;
-    // Drives that are independent at the start do not contradict each other: along the motion the
-    // rank is lower only at single instants.
+    // Drives that are independent at the start do not contradict each other, because the rank is
+    // lower only at single instants along the motion.
     match JointsFirst::of_velocities(mechanism, 0.0, start, ranks.as_ref())? {
         Some(rows) if rows.has_redundant_drives(mechanism) => {}
         _ => return Ok(None),
@@ -81,8 +82,8 @@ pub fn contradicting_drives_along(
 }
 
 /// Returns whether the drives of a contradiction are also redundant at other configurations that
-/// can be reached from the start. At a singular start, a drive may be redundant that is independent
-/// at all configurations around it.
+/// can be reached from the start. At a singular start, a drive may be redundant although it is
+/// independent at all configurations around the start.
 fn lasts(
     mechanism: &Mechanism,
     ranks: Option<&StatedRanks>,
@@ -109,8 +110,8 @@ fn is_beyond(mechanism: &Mechanism) -> bool {
     layout.drive_rows().is_empty() || layout.rows() > ONE_PART
 }
 
-/// Calls `see` with the positions along the motion until a position cannot be reached or `see`
-/// returns `false`.
+/// Calls `see` with the positions along the motion. The function ends if a position cannot be
+/// reached or `see` returns `false`.
 fn walk(
     mechanism: &Mechanism,
     start: &[f64],
@@ -135,8 +136,8 @@ fn walk(
             DRIVE_POSITIONS => t_end,
             k => t_end * f64::from(k) / f64::from(DRIVE_POSITIONS),
         };
-        // If the continuation ends early, it ends at a position where drives that contradict each
-        // other already differ.
+        // If the continuation ends early, drives that contradict each other already differ at the
+        // last position.
         let is_there = walk.go(to)?;
         if !see(walk.t, &walk.q)? || !is_there {
             break;
@@ -157,7 +158,7 @@ struct DriveWalk<'m> {
 }
 
 impl DriveWalk<'_> {
-    /// Continues to a later time. Returns whether it has been reached.
+    /// Continues to a later time. Returns whether this time has been reached.
     fn go(&mut self, to: f64) -> Result<bool, AnalysisError> {
         while self.t < to {
             if self.steps == DRIVE_STEPS {
@@ -222,7 +223,7 @@ impl DriveWalk<'_> {
     }
 }
 
-/// Which contradictions are reported.
+/// The contradictions that are reported.
 #[derive(Clone, Copy)]
 enum Notice {
     /// All contradictions above rounding.
@@ -249,7 +250,7 @@ fn compared(
         of_level.sort_by(|a, b| excess(b).total_cmp(&excess(a)));
         found.extend(of_level);
     };
-    // Contradictions of positions are reported before those of velocities.
+    // Contradictions of positions are reported before contradictions of velocities.
     if let Some(positions) = JointsFirst::of_positions(mechanism, t, q, ranks)? {
         let level = Level::positions();
         let terms = |i| mechanism.scales(&positions.s).terms(i, &level);
@@ -260,8 +261,8 @@ fn compared(
             .slowest(mechanism, q)
             .unwrap_or_else(|| vec![0.0; mechanism.layout().n_v]);
         let level = Level::velocities(mechanism, scene_size(mechanism, q), &v);
-        // Different rates count as equal if the positions at the end of the simulation differ by
-        // less than it notices.
+        // Different rates count as equal if the difference of the positions at the end of the
+        // simulation is too small to be noticed by the simulation.
         let slow = |i| per_second * mechanism.scales(&all.s).position(i);
         let terms = |i| mechanism.scales(&all.s).terms(i, &level) + slow(i);
         add(all.contradictions(mechanism, level, &terms, share));

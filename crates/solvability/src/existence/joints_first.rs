@@ -1,5 +1,5 @@
 //! Ranks and independent rows that prefer joints to drives. The redundant remainder of a drive is
-//! the contradicting part.
+//! the part that contradicts the other rows.
 
 use linalg::{KeptRowSaddle, Matrix};
 use model::start::scene_size;
@@ -11,8 +11,9 @@ use crate::certificate;
 use crate::error::AnalysisError;
 use crate::pose::{dimensionless, evaluated, uncertainty, velocity_units};
 
-/// The ranks of a mechanism with a stated tolerance. They apply to the data within this tolerance,
-/// and no single matrix has them. Without a tolerance, each configuration has its own ranks.
+/// The ranks of a mechanism with a stated tolerance. The ranks apply to the data within this
+/// tolerance, and no single matrix has these ranks. Without a tolerance, each configuration has its
+/// own ranks.
 pub(super) struct StatedRanks {
     /// Ranks of the rows of Φ; `None` if they are undecided.
     positions: Option<RanksOfRows>,
@@ -20,7 +21,7 @@ pub(super) struct StatedRanks {
     velocities: Option<RanksOfRows>,
 }
 
-/// The rank of some rows, and of those among them that do not belong to drives.
+/// The rank of some rows, and the rank of those rows among them that do not belong to drives.
 #[derive(Clone, Copy)]
 struct RanksOfRows {
     all: usize,
@@ -28,7 +29,7 @@ struct RanksOfRows {
 }
 
 impl StatedRanks {
-    /// Returns the ranks at a configuration; `None` without a tolerance.
+    /// Returns the ranks at a configuration, or `None` without a tolerance.
     pub(super) fn at(
         mechanism: &Mechanism,
         t: f64,
@@ -66,9 +67,9 @@ fn without_drives(mechanism: &Mechanism, rows: &[usize]) -> Vec<usize> {
     rows.iter().filter(is_joint).copied().collect()
 }
 
-/// Rank decision at a configuration that prefers joints to drives as independent rows.
+/// Rank decision at a configuration. The decision prefers joints to drives as independent rows.
 pub(super) struct JointsFirst {
-    /// Scratch in which the rows are evaluated.
+    /// Scratch in which the rows have been evaluated.
     pub(super) s: Scratch,
     pub(super) decision: RankDecision,
 }
@@ -105,8 +106,8 @@ impl JointsFirst {
         }
     }
 
-    /// Returns the decision on the first `count` rows of C, with the given ranks if there are any.
-    /// Returns `None` if a rank is undecided.
+    /// Returns the decision on the first `count` rows of C. If ranks are given, the decision uses
+    /// them. Returns `None` if a rank is undecided.
     fn of(
         mechanism: &Mechanism,
         t: f64,
@@ -119,8 +120,8 @@ impl JointsFirst {
         let size = scene_size(mechanism, q);
         let all: Vec<usize> = (0..count).collect();
         let c = dimensionless(mechanism, &s, size).select_rows(&all);
-        // The residuals of drives are the quantities to compare, so they do not count as errors of
-        // the configuration.
+        // The residuals of drives are the quantities to compare. Therefore they do not count as
+        // errors of the configuration.
         let mut of_joints = s.clone();
         for row in layout.drive_rows() {
             of_joints.phi[row] = 0.0;
@@ -171,7 +172,7 @@ impl JointsFirst {
     }
 
     /// Returns the smallest velocities that satisfy the kept rows and that data within a tolerance
-    /// change; `None` if they cannot be computed.
+    /// change. Returns `None` if they cannot be computed.
     pub(super) fn slowest(&self, mechanism: &Mechanism, q: &[f64]) -> Option<Vec<f64>> {
         let (layout, kept) = (mechanism.layout(), &self.decision.kept);
         let c = layout.dense(&self.s);

@@ -1,11 +1,11 @@
 //! Finds limit positions of drives. The configurations of the constraints form a curve in
-//! coordinates and time, and time has a maximum on this curve at a limit position. At the limit
-//! position the rank of Φq drops, and no later configuration is nearby.
+//! coordinates and time. At a limit position, time has a maximum on this curve. The rank of Φq
+//! drops at the limit position, and no later configuration is nearby.
 //!
 //! The continuation uses the length of the curve as parameter and time as an additional unknown. At
-//! the maximum the rows are dependent in the coordinates, but not in coordinates and time. With
-//! `zᵀ·Φq = 0` there, a velocity w with `Φq·w = 0` changes time by `t'' = zᵀ·Γ(w) / (zᵀ·Φ_t)`; time
-//! has a maximum if this is negative.
+//! the maximum the rows are dependent in the coordinates, but not in coordinates and time. If
+//! `zᵀ·Φq = 0` at the maximum, a velocity w with `Φq·w = 0` changes time by `t'' = zᵀ·Γ(w) /
+//! (zᵀ·Φ_t)`. Time has a maximum if this value is negative.
 
 use linalg::{Matrix, PivotedQr, least_squares_step, symmetric_eigen};
 use model::start::scene_size;
@@ -31,7 +31,7 @@ pub struct DriveLimit {
     pub drives: Vec<LimitedDrive>,
 }
 
-/// A drive at the last configuration that it reaches.
+/// A drive at the last configuration that the drive reaches.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
@@ -92,8 +92,8 @@ impl LimitedDrive {
         let group = &groups[id.0];
         let driven = mechanism.driven(id);
         let blocks = mechanism.data().blocks(s);
-        // A value that a drive keeps from its start, and that no parameter states, is its joint
-        // coordinate there.
+        // If no parameter states the value that a drive keeps from its start, the value is the
+        // joint coordinate at the start.
         let is_stated = |name: &str| group.spec.common.parameters.iter().any(|p| p.name == name);
         let zero = blocks
             .iter()
@@ -123,9 +123,9 @@ impl LimitedDrive {
     }
 }
 
-/// Returns the drives that cannot continue just after time t, at coordinates q and velocities v on
-/// the rows `kept` of Φ, which are independent there. Returns `None` if time has no maximum near
-/// this point on the curve of configurations, or if several free motions leave this undecided.
+/// Returns the drives that cannot continue just after time t, at coordinates q and velocities v.
+/// The rows `kept` of Φ must be independent at q. Returns `None` if time has no maximum near this
+/// point on the curve of configurations, or if several free motions leave this undecided.
 #[must_use]
 pub fn drive_limit(
     mechanism: &Mechanism,
@@ -151,8 +151,8 @@ pub fn drive_limit(
     None
 }
 
-/// A point of the curve, with the direction in which the curve continues: dimensionless
-/// coordinates, and time.
+/// A point of the curve, and the direction in which the curve continues. The direction consists of
+/// dimensionless coordinates and time.
 struct CurvePoint {
     t: f64,
     q: Vec<f64>,
@@ -172,7 +172,7 @@ struct Curve<'m> {
 }
 
 impl<'m> Curve<'m> {
-    /// Returns `None` if no row depends on time.
+    /// Creates the curve, or returns `None` if no row depends on time.
     fn new(mechanism: &'m Mechanism, kept: &'m [usize], t: f64, q: &[f64]) -> Option<Self> {
         let size = scene_size(mechanism, q);
         let units = velocity_units(mechanism, size);
@@ -232,7 +232,7 @@ impl<'m> Curve<'m> {
         own.chain([1.0]).collect()
     }
 
-    /// Returns the direction of the curve that is nearest to the direction of the point.
+    /// Returns the direction of the curve that is nearest to the direction stored in the point.
     fn tangent(&self, at: &CurvePoint) -> Option<Vec<f64>> {
         let rows = self.of_all(&self.evaluated(at.t, &at.q));
         if rows.first_non_finite().is_some() || rows.nrows() >= rows.ncols() {
@@ -286,7 +286,7 @@ impl<'m> Curve<'m> {
         None
     }
 
-    /// Returns the last point before time decreases, given a point one step before it.
+    /// Returns the last point before time decreases. The given point is one step before it.
     fn highest(&self, from: CurvePoint) -> CurvePoint {
         let (mut at, mut length) = (from, LIMIT_STEP);
         for _ in 0..LIMIT_HALVINGS {
@@ -300,7 +300,7 @@ impl<'m> Curve<'m> {
         at
     }
 
-    /// Returns the drives that cannot continue, if no velocity increases time at second order.
+    /// Returns the drives that cannot continue if no velocity increases time at second order.
     fn limit(&self, at: &CurvePoint) -> Option<DriveLimit> {
         let mut s = self.evaluated(at.t, &at.q);
         let c = self.of_coordinates(&s);
@@ -316,7 +316,7 @@ impl<'m> Curve<'m> {
             .collect();
         // The derivative of the rows with respect to time is Φ_t = −b.
         let of_time = -drawn.iter().sum::<f64>();
-        // Where branches meet, the rows are also dependent in coordinates and time.
+        // If branches meet at a point, the rows are also dependent in coordinates and time.
         let parts = stress.iter().zip(&self.row_units);
         let largest = parts.fold(0.0_f64, |a, (z, unit)| a.max((z * unit).abs()));
         if of_time.abs() * self.second <= LIMIT_ROUNDING * largest {
@@ -361,8 +361,8 @@ impl<'m> Curve<'m> {
     }
 }
 
-/// Returns whether a quadratic form of the columns of `free` has a maximum at zero: it must be
-/// negative along one column and positive in no direction.
+/// Returns whether a quadratic form of the columns of `free` has a maximum at zero. The form must
+/// be negative along one column and must not be positive in any direction.
 fn highest_of_form(free: &Matrix, form: &mut impl FnMut(&[f64]) -> f64) -> bool {
     let n = free.ncols();
     if n > LIMIT_FORMS {

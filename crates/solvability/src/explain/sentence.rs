@@ -12,9 +12,10 @@ use crate::words::{list, names};
 use model::space::{dot, norm};
 use model::words::short;
 
-/// Describes a self-stress in terms of joints and bodies if its geometry allows it, otherwise in
-/// terms of rows. In space, `told` contains the loads on the joints. The numbers are the components
-/// that all outputs print: on the first body of each joint, or the named component.
+/// Describes a self-stress in terms of joints and bodies if its geometry allows it, and otherwise
+/// in terms of rows. In space, `told` contains the loads on the joints. The numbers are the
+/// components that all outputs print. The components belong to the first body of each joint, or to
+/// the named component.
 pub(super) fn of_stress(
     mechanism: &Mechanism,
     s: &Scratch,
@@ -81,8 +82,9 @@ pub(super) fn of_stress(
     }
 }
 
-/// Returns the joints whose forces on one body have the sense of the first force, and those with
-/// the opposite sense. Returns `None` if the forces have other directions or act on several bodies.
+/// Returns the joints whose forces on one body have the sense of the first force, and the joints
+/// whose forces have the opposite sense. Returns `None` if the forces have other directions or act
+/// on several bodies.
 fn sides(directions: &[FreeDirection]) -> Option<[Vec<ConstraintId>; 2]> {
     let first = directions.first()?;
     let mut sides = [Vec::new(), Vec::new()];
@@ -116,8 +118,8 @@ fn against(bodies: &[String]) -> String {
     }
 }
 
-/// Returns whether all constraints are single velocity conditions on one body that do not depend on
-/// time: wheels and knife edges.
+/// Returns whether all constraints are wheels and knife edges, which are single velocity conditions
+/// on one body that do not depend on time.
 fn slips(layout: &Layout, ids: &[ConstraintId]) -> bool {
     ids.iter().all(|id| {
         let group = &layout.groups[id.0];
@@ -128,8 +130,8 @@ fn slips(layout: &Layout, ids: &[ConstraintId]) -> bool {
     })
 }
 
-/// Returns the components that describe a load, with their values: the named component if the joint
-/// has a single row, otherwise each component that is not zero.
+/// Returns the components that describe a load, with their values. If the joint has a single row,
+/// this is the named component; otherwise it is each component that is not zero.
 fn told_components(layout: &Layout, load: &FreeDirection) -> Vec<(&'static str, f64)> {
     let group = &layout.groups[load.joint.0];
     if let (Some(name), Some(value), 1) = (group.spec.component, load.component, group.rows.len()) {
@@ -158,8 +160,9 @@ fn terms(layout: &Layout, loads: &[FreeDirection]) -> Vec<String> {
     loads.iter().flat_map(of).collect()
 }
 
-/// Returns the combination of two reactions that their loads do not change, and whether it is
-/// determined. Returns `None` if one of the two loads has both a force and a torque, or no number.
+/// Returns the combination of two reactions that is not changed by their loads, and whether the
+/// combination is determined. Returns `None` if one of the two loads has both a force and a torque,
+/// or no number.
 fn sum(
     mechanism: &Mechanism,
     s: &Scratch,
@@ -205,7 +208,8 @@ fn sum(
     }
 }
 
-/// Formats a positive number with as few digits as reproduce it to twelve digits.
+/// Formats a positive number with the smallest number of digits that reproduces the number to
+/// twelve digits.
 fn digits(x: f64) -> String {
     let told = |digits: usize| format!("{x:.digits$e}").parse().unwrap_or(x);
     let short = (0..12).map(told).find(|y: &f64| (y - x).abs() <= 1e-12 * x);
@@ -240,8 +244,8 @@ pub(crate) fn describe(mechanism: &Mechanism, circuit: &Circuit) -> String {
     }
 }
 
-/// Kind of the multipliers of a circuit: the multiplier of a row in metres is a force, that of a
-/// row in radians is a torque.
+/// Kind of the multipliers of a circuit. The multiplier of a row in metres is a force, and the
+/// multiplier of a row in radians is a torque.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Loads {
     Forces,
@@ -262,7 +266,7 @@ impl Loads {
         }
     }
 
-    /// Returns the verb for the action of joints on each other by these loads.
+    /// Returns the verb that describes how joints act on each other by these loads.
     fn act(self) -> &'static str {
         match self {
             Self::Forces => "press against each other",
@@ -272,8 +276,8 @@ impl Loads {
     }
 }
 
-/// Formats the coefficients without trailing zeros, with the sign for which most are positive.
-/// Units are printed if the rows have different kinds.
+/// Formats the coefficients without trailing zeros. The sign is chosen so that most coefficients
+/// are positive. Units are printed if the rows have different kinds.
 fn ratio(mechanism: &Mechanism, circuit: &Circuit) -> String {
     let negative = circuit.coefficients.iter().filter(|c| **c < 0.0).count();
     let sign = if 2 * negative > circuit.coefficients.len() {

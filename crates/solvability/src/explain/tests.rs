@@ -1,5 +1,6 @@
-//! Spatial loads that the equilibrium of the bodies does not determine, compared with the screws of
-//! single loops: all joints can carry a wrench iff it is reciprocal to the screws of all joints.
+//! Spatial loads that the equilibrium of the bodies does not determine. They are compared with the
+//! screws of single loops. All joints can carry a wrench iff the wrench is reciprocal to the screws
+//! of all joints.
 
 use super::*;
 use crate::pose::{dimensionless, evaluated};
@@ -42,7 +43,8 @@ fn coaxial_hinges_share_all_forces_and_the_moments_across() {
     share(&door(&[Revolute; 2], HOME), words);
     let words = "(forces in all directions and moments about x and y)";
     share(&door(&[Revolute; 3], HOME), words);
-    // A cylindrical joint carries no force along its axis, a ball only forces through it.
+    // A cylindrical joint carries no force along its axis, and a ball carries only forces through
+    // its centre.
     share(
         &door(&[Revolute, Cylindrical], HOME),
         "(forces along x and y and moments about x and y)",
@@ -78,7 +80,7 @@ fn a_planar_linkage_carries_loads_across_its_plane() {
     share(&four_bar(kinds, home), "(moments about x and y)");
     let kinds = [Revolute, Revolute, Revolute, Spherical];
     share(&four_bar(kinds, home), "(a force along z through `D`)");
-    // The slider-crank also moves in its plane.
+    // The slider-crank can also move in its plane.
     let names = ["crank", "rod", "block", "O", "A", "B", "slide"];
     let points = [[0.0; 3], [0.3, 0.4, 0.0], [1.5, 0.0, 0.0], [1.5, 0.0, 0.0]];
     let slider = |middle: Kind| {
@@ -149,8 +151,8 @@ fn legs_of_a_table_carry_forces_along_its_axis() {
     assert!(explained(&table).stresses[0].text.starts_with(words));
 }
 
-/// A hinge along x and two points on planes, whose forces have no moment about it and do not
-/// intersect.
+/// A hinge along x and two points on planes. The forces of the points have no moment about the
+/// hinge, and their lines do not intersect.
 #[test]
 fn few_different_loads_are_told_joint_by_joint() {
     let mut s = slab(&[[1.0, 0.0]]);
@@ -183,7 +185,7 @@ fn many_loads_are_not_described_joint_by_joint() {
     assert!(mixing.text.contains(words), "{}", mixing.text);
 }
 
-/// Unique loads are described component by component.
+/// Unique loads are reported component by component.
 #[test]
 fn what_is_determined_is_told_in_components() {
     let told = |kinds: [Kind; 4]| -> Vec<String> {
@@ -211,7 +213,8 @@ fn dependencies(d: &model::Description) -> Vec<String> {
     told.stresses.into_iter().map(|s| s.text).collect()
 }
 
-/// A body on the ground, held by two joints or drives, with its frame at (1, 0).
+/// Returns the text about the dependency of a body that two joints or drives hold on the ground.
+/// The frame of the body is at (1, 0).
 fn held(build: impl Fn(&mut model::Description, [BodyRef; 2])) -> String {
     let mut d = model::Description::new("held");
     let body = model::Body::new("b", 1.0, 1.0);
@@ -224,9 +227,9 @@ fn held(build: impl Fn(&mut model::Description, [BodyRef; 2])) -> String {
     one
 }
 
-/// The numbers are the components of the reactions: on the first body of each joint, which is the
-/// ground for some joints and the body for others. By manual calculation, the ground pushes the
-/// body up by 1 N at one joint, and down at the other.
+/// The numbers are the components of the reactions on the first body of each joint. This body is
+/// the ground for some joints, and the moving body for the other joints. By manual calculation, the
+/// ground pushes the body up by 1 N at one joint, and down at the other joint.
 #[test]
 fn loads_that_cancel_are_told_as_reactions_are() {
     use joints::{Direction, Fixed, Gear, Line, PinInSlot, PointOnLine};
@@ -245,7 +248,7 @@ fn loads_that_cancel_are_told_as_reactions_are() {
         "`slot.Fy` = 1 N and `roller.Fy` = 1 N cancel; only `slot.Fy - roller.Fy` is determined";
     assert!(found.ends_with(words), "{found}");
 
-    // A force at an arm of 1 m has a moment, which the clamp carries.
+    // A force at an arm of 1 m has a moment, which the clamp supports.
     let found = held(|d, pair| {
         d.joint("clamp", &pair, Fixed::new([0.0; 2], [-1.0, 0.0]));
         d.joint("roller", &pair[1..], roller([0.0; 2]));
@@ -253,8 +256,8 @@ fn loads_that_cancel_are_told_as_reactions_are() {
     let words = "`clamp.Fy` = 1 N, `clamp.T` = 1 N·m and `roller.Fy` = 1 N cancel";
     assert!(found.ends_with(words), "{found}");
 
-    // Guide and drive: the text describes a drive by the load along its joint coordinate, here on
-    // the ground.
+    // A guide and a drive. The text describes a drive by the load along its joint coordinate. Here
+    // this load acts on the ground.
     let found = held(|d, pair| {
         let guide = joints::Translational::new([1.0, 0.0], [0.0; 2], Direction::Y);
         let motion = model::Function::constant_rate(0.0).expect("finite");
@@ -265,8 +268,8 @@ fn loads_that_cancel_are_told_as_reactions_are() {
         "`roller.Fy` = 1 N and `m.drive` = 1 N cancel; only `roller.Fy - m.drive` is determined";
     assert!(found.ends_with(words), "{found}");
 
-    // Two gear meshes with ratio −2; the order of the wheels is reversed in the second one. The
-    // load λ on `one` is balanced by λ/−2 of the other, whose first body is `two`.
+    // Two gear meshes with ratio −2. The order of the wheels is reversed in the second mesh. The
+    // load λ on `one` is balanced by the load λ/−2 of the second mesh, whose first body is `two`.
     let mut d = model::Description::new("gears");
     let [one, two] = ["one", "two"].map(|name| d.body(model::Body::new(name, 1.0, 1.0)));
     for (name, body) in [("A", one), ("B", two)] {

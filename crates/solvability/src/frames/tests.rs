@@ -7,7 +7,7 @@ use model::{ConstraintId, Frame};
 use super::judge_frames;
 use crate::sketch::{Kind, Z, four_bar, places};
 
-/// Permitted difference between axes: rounding.
+/// Permitted difference between axes. It is a rounding error.
 const ROUNDING: f64 = 1e-13;
 
 /// V3: in the axes of its joints, a planar four-bar has the same verdicts at any position.

@@ -1,11 +1,12 @@
 //! Chooses basis vectors with simple coefficients for a space of velocities. Conditions are imposed
 //! one after the other. A condition is used only if a velocity that satisfies it is independent of
-//! the chosen ones. The rank is decided in other modules.
+//! the velocities already chosen. Other modules decide the rank.
 
 use crate::limits::{NEW_MOTION, SATISFIED};
 use linalg::{Matrix, PivotedQr};
 
-/// A linear form of the velocities: columns and coefficients. The coefficients are at most about 1.
+/// A linear form of the velocities, as columns and coefficients. The coefficients are at most about
+/// 1.
 pub(super) type Form = Vec<(usize, f64)>;
 
 /// The velocities that the rows allow, and the velocities that are already chosen.
@@ -40,8 +41,8 @@ impl<'a> Space<'a> {
         Matrix::identity(self.all.ncols())
     }
 
-    /// Marks velocities as chosen if the caller reports them separately. Returns `false` and marks
-    /// no velocity if one of them is not in the space.
+    /// Marks velocities that the caller reports separately as chosen. Returns `false` and marks no
+    /// velocity if one of the velocities is not in the space.
     pub(super) fn take_out(&mut self, velocities: &[Vec<f64>]) -> bool {
         let mut within = Vec::new();
         for v in velocities {
@@ -73,8 +74,8 @@ impl<'a> Space<'a> {
         rows
     }
 
-    /// Returns the part of a subspace that satisfies a condition. Returns `None` if it contains no
-    /// new vector.
+    /// Returns the part of a subspace that satisfies a condition. Returns `None` if this part
+    /// contains no new vector.
     pub(super) fn restricted(&self, y: &Subspace, condition: &Condition) -> Option<Subspace> {
         let k = y.ncols();
         let qr = PivotedQr::of_rows(condition.product(y));
@@ -89,7 +90,7 @@ impl<'a> Space<'a> {
         self.newest(&left).map(|_| left)
     }
 
-    /// Chooses a velocity of a subspace, n numbers. Returns `None` if the subspace contains no new
+    /// Chooses a velocity of a subspace (n numbers). Returns `None` if the subspace contains no new
     /// velocity.
     pub(super) fn take(&mut self, y: &Subspace) -> Option<Vec<f64>> {
         let column = self.newest(y)?;
@@ -112,7 +113,7 @@ impl<'a> Space<'a> {
         best.1
     }
 
-    /// Returns the part of these coefficients that is orthogonal to the chosen ones.
+    /// Returns the part of these coefficients that is orthogonal to the chosen coefficients.
     fn remainder(&self, mut x: Vec<f64>) -> Vec<f64> {
         for c in &self.chosen {
             let along: f64 = c.iter().zip(&x).map(|(a, b)| a * b).sum();
@@ -139,8 +140,8 @@ fn norm(x: impl Iterator<Item = f64>) -> f64 {
 mod tests {
     use super::*;
 
-    /// Velocities (a, b, c) with a = b. The first vector has a = 0 and moves only c; the second one
-    /// has a = b.
+    /// Velocities (a, b, c) with a = b. The first vector has a = 0 and moves only c. The second
+    /// vector has a = b.
     #[test]
     fn conditions_choose_what_is_left() {
         let half = 0.5_f64.sqrt();

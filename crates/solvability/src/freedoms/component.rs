@@ -24,11 +24,11 @@ pub(super) struct Component<'a> {
     units: Vec<f64>,
 }
 
-/// Velocities of all bodies of a component: velocities of their centres of mass (m/s), then angular
-/// velocities (rad/s), both in ground axes.
+/// Velocities of all bodies of a component: first the velocity of the centre of mass (m/s), then
+/// the angular velocity (rad/s), both in ground axes.
 pub(super) type Velocities = Vec<Vec<f64>>;
 
-/// Number of joints and bodies that move, and their mass.
+/// Number of moving joints, number of moving bodies, and the mass of these bodies.
 #[derive(Clone, Copy, Debug, Default, PartialEq, PartialOrd)]
 struct Cost {
     joints: usize,
@@ -68,14 +68,14 @@ impl<'a> Component<'a> {
     fn factors(&self, rows: &[usize]) -> (PivotedQr, Vec<i32>) {
         let c = dimensionless(self.mechanism, &self.s, self.size).select_rows(rows);
         let known = uncertainty(self.mechanism, &self.s, self.size).select_rows(rows);
-        // If an uncertainty is not finite, the matrix is not finite, either.
+        // If an uncertainty is not finite, the matrix is not finite either.
         let scaling = Accuracy::from(&known)
             .equilibration(&c)
             .unwrap_or_else(|_| equilibrate(&c));
         (PivotedQr::of_rows(scaling.apply(&c)), scaling.cols)
     }
 
-    /// Returns at most `most` motions that the rows leave free; `rank` is the rank of the rows.
+    /// Returns at most `most` motions that the rows leave free. `rank` is the rank of the rows.
     pub(super) fn motions(&self, rank: usize, most: usize) -> Motions {
         let rows: Vec<usize> = (0..self.mechanism.layout().rows()).collect();
         let (qr, columns) = self.factors(&rows);
@@ -103,7 +103,8 @@ impl<'a> Component<'a> {
         motions
     }
 
-    /// Returns at most `most` motions that span these velocities (columns of C in the rows).
+    /// Returns at most `most` motions that span these velocities. The rows of the matrix are
+    /// columns of C.
     pub(super) fn among(&self, velocities: &Matrix, most: usize) -> Vec<Velocities> {
         let unit = |j: usize, i: usize| velocities[(i, j)] / self.units[j];
         let scaled = Matrix::from_fn(velocities.ncols(), velocities.nrows(), unit);
@@ -130,7 +131,7 @@ impl<'a> Component<'a> {
     }
 
     /// Returns the subspace that remains after as many joints as possible, and then as many bodies
-    /// as possible, are fixed. The result is the best one of several orders.
+    /// as possible, are fixed. The search tries several orders and returns the best result.
     fn smallest(&self, space: &Space<'_>) -> Subspace {
         let bodies = self.mechanism.bodies();
         let groups = self.mechanism.layout().groups.len();
@@ -172,8 +173,8 @@ impl<'a> Component<'a> {
         best.map_or(whole, |(_, y)| y)
     }
 
-    /// Returns the joints at which the search for motions of few bodies begins: joints at the ends
-    /// of chains first.
+    /// Returns the joints at which the search for motions of few bodies begins. Joints at the ends
+    /// of chains come first.
     fn targets(&self) -> Vec<usize> {
         let groups = &self.mechanism.layout().groups;
         let mut joints = vec![0_usize; self.mechanism.bodies().len()];
@@ -186,7 +187,8 @@ impl<'a> Component<'a> {
         order
     }
 
-    /// Joints by their distance from `target`, the farthest first and `target` last.
+    /// Returns the joints by their distance from `target`, the farthest joint first and `target`
+    /// last.
     fn farthest_first(&self, target: usize) -> Vec<usize> {
         let groups = &self.mechanism.layout().groups;
         let mut of_body = vec![Vec::new(); self.mechanism.bodies().len()];
@@ -211,9 +213,9 @@ impl<'a> Component<'a> {
         order
     }
 
-    /// Returns conditions that make a motion easy to describe, the most useful first: bodies that
-    /// do not rotate, joints that stay at rest, rotations about one axis, centres of mass that stay
-    /// at rest, translations along one axis.
+    /// Returns conditions that make a motion easy to describe, the most useful condition first. The
+    /// conditions are bodies that do not rotate, joints that stay at rest, rotations about one
+    /// axis, centres of mass that stay at rest, and translations along one axis.
     fn wishes(&self) -> Vec<Vec<Form>> {
         let bodies = || 0..self.mechanism.bodies().len();
         let pinned = self.mechanism.layout().constraint_ids().flat_map(|id| {
@@ -252,8 +254,8 @@ impl<'a> Component<'a> {
         axes[space.axis_of(space.dof_of(column))]
     }
 
-    /// Returns forms that vanish if the bodies of a joint move together, or, if one of them is the
-    /// ground, if they are at rest.
+    /// Returns forms that vanish if the bodies of a joint move together. If one of the bodies is
+    /// the ground, the forms vanish if the bodies are at rest.
     fn held(&self, group: usize) -> Vec<Form> {
         let place = self.place(ConstraintId(group));
         let all = &self.mechanism.layout().groups[group].bodies;
@@ -276,8 +278,8 @@ impl<'a> Component<'a> {
     fn point_at_rest(&self, body: usize, point: [f64; 3]) -> Vec<Form> {
         let space = self.mechanism.space();
         let arm = difference(point, self.origin(body));
-        // The coefficients are below 1: the point is within the size of the mechanism, and
-        // rotations are scaled by it.
+        // The coefficients are below 1, because the point is within the size of the mechanism, and
+        // rotations are scaled by this size.
         let turn = |axis: usize, j: usize| (j, self.units[j] * cross(self.axis(j), arm)[axis]);
         let form = |(axis, j): (usize, usize)| {
             let turns = space.rotations_of(body).map(|j| turn(axis, j));
@@ -286,7 +288,7 @@ impl<'a> Component<'a> {
         space.translations_of(body).enumerate().map(form).collect()
     }
 
-    /// Returns forms that vanish if two bodies move together, compared at a point.
+    /// Returns forms that vanish if two bodies move together. The motions are compared at a point.
     fn together(&self, [a, b]: [usize; 2], place: [f64; 3]) -> Vec<Form> {
         let difference = |(mut one, other): (Form, Form)| {
             one.extend(other.into_iter().map(|(j, c)| (j, -c)));
@@ -299,8 +301,8 @@ impl<'a> Component<'a> {
         forms
     }
 
-    /// Returns the dimensionless motions of all bodies as one rigid body: translations, and
-    /// rotations about the centre of mass of the first body.
+    /// Returns the dimensionless motions of all bodies as one rigid body. The motions are
+    /// translations, and rotations about the centre of mass of the first body.
     fn rigid(&self) -> Vec<Vec<f64>> {
         let space = self.mechanism.space();
         let bodies = self.mechanism.bodies().len();
@@ -371,8 +373,8 @@ impl<'a> Component<'a> {
     }
 }
 
-/// Returns the number of independent rows in each component, if the rows of all components have
-/// this rank together. The largest pivots count, as in a pivoted factorisation of all rows.
+/// Returns the number of independent rows in each component. The rows of all components together
+/// have this rank. The largest pivots count, as in a pivoted factorisation of all rows.
 pub(super) fn shared_rank(pivots: &[Vec<f64>], rank: usize) -> Vec<usize> {
     let all = pivots.iter().enumerate();
     let mut all: Vec<(f64, usize)> = all

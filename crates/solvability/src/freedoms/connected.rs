@@ -22,7 +22,7 @@ struct DescribedMotions {
 pub(super) struct ConnectedSets<'a> {
     whole: &'a Mechanism,
     joined: Part,
-    /// Bodies of the whole mechanism, ascending; a body without joints is a separate set.
+    /// Bodies of the whole mechanism, ascending. A body without joints is a separate set.
     sets: Vec<Vec<usize>>,
 }
 
@@ -41,8 +41,8 @@ impl<'a> ConnectedSets<'a> {
         }
     }
 
-    /// Returns a basis of the velocities that the rows allow, if their ranks are known and their
-    /// sum is less than n_v.
+    /// Returns a basis of the velocities that the rows allow, if the ranks of the rows are known
+    /// and their sum is less than n_v.
     pub(super) fn motions(&self, t: f64, q: &[f64], decided: &[PartRank]) -> FreeMotions {
         let rank: usize = decided.iter().map(|part| part.rank).sum();
         let mut described = DescribedMotions::default();
@@ -67,8 +67,9 @@ impl<'a> ConnectedSets<'a> {
         }
     }
 
-    /// Returns the rank of the rows of each set. The rank is `None` if the set is too large to
-    /// separate its rank from that of other sets, or to be analysed further.
+    /// Returns the rank of the rows of each set. The rank is `None` if the set is too large. The
+    /// rank of the set then cannot be separated from that of other sets, or the set cannot be
+    /// analysed further.
     fn ranks(&self, t: f64, q: &[f64], decided: &[PartRank]) -> Vec<Option<usize>> {
         let layout = self.whole.layout();
         let columns = self.whole.space().n_v();
@@ -237,7 +238,8 @@ impl<'a> ConnectedSets<'a> {
             .collect()
     }
 
-    /// Describes velocities (n_v values each) as motions of connected bodies that span them.
+    /// Describes velocities (n_v values each) as motions of connected bodies. The motions span the
+    /// velocities.
     pub(super) fn among(&self, t: f64, q: &[f64], velocities: &[Vec<f64>]) -> Vec<FreeMotion> {
         let units = velocity_units(self.whole, scene_size(self.whole, q));
         let scaled = |k: usize, j: usize| (velocities[k][j] / units[j]).abs();
@@ -323,8 +325,8 @@ impl<'a> ConnectedSets<'a> {
         self.whole.bodies()[body].from_centre([0.0; 3])
     }
 
-    /// Returns the velocities of the frame of a body, given the velocities of its centre of mass.
-    /// `arm` is the vector from the centre of mass.
+    /// Returns the velocities of the frame of a body. The velocities of its centre of mass are
+    /// given, and `arm` is the vector from the centre of mass to the origin of the frame.
     fn of_frame(&self, body: usize, arm: [f64; 3], v: Vec<f64>) -> Vec<f64> {
         let space = self.whole.space();
         // In the plane, the velocities refer to the centre of mass.

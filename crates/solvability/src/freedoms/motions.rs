@@ -1,4 +1,4 @@
-//! Reported free motions, and the ranks from which they follow.
+//! Reported free motions, and the ranks from which they are computed.
 
 use super::ranks::WithoutDrives;
 
@@ -23,24 +23,24 @@ pub struct LeftOut {
     pub reason: String,
 }
 
-/// One free motion. The rigid motions of a body without joints, and of bodies that are joined only
-/// to each other, form one entry.
+/// One free motion. The rigid motions of a body without joints form one entry. The same applies to
+/// bodies that are joined only to each other.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct FreeMotion {
     /// Description, for example "`crank` turns about `A`; with it `coupler` and `rocker` turn".
     pub text: String,
-    /// Moving bodies for each degree of freedom: index of the body, and its velocities in the order
-    /// of [`SpaceKind::velocities`](model::SpaceKind) (m/s, rad/s), in ground axes. In the plane
-    /// these are the velocities of the centre of mass, in the order of the columns of C. In space
-    /// they are the velocities of the origin of the body frame. The largest rotation is 1, or the
-    /// fastest translation if no body rotates.
+    /// The moving bodies for each degree of freedom. Each item is the index of the body, and the
+    /// velocities of the body in the order of [`SpaceKind::velocities`](model::SpaceKind) (m/s,
+    /// rad/s), in ground axes. In the plane these are the velocities of the centre of mass, in the
+    /// order of the columns of C. In space they are the velocities of the origin of the body frame.
+    /// The largest rotation is 1. If no body rotates, the fastest translation is 1.
     pub velocities: Vec<Vec<(usize, Vec<f64>)>>,
 }
 
-/// Rank of rows that are decided together: the rows of the whole mechanism, or of a part that
-/// shares no cycle with other parts.
+/// Rank of rows that are decided together. The rows are the rows of the whole mechanism, or of a
+/// part that shares no cycle with other parts.
 pub(crate) struct PartRank {
     /// Rows of the whole mechanism, ascending.
     pub(crate) rows: Vec<usize>,

@@ -72,14 +72,15 @@ impl Twist {
         }
     }
 
-    /// Returns the larger of the velocity and that of a point at this distance from the axis (m/s).
+    /// Returns the larger of two speeds (m/s): that of the centre of mass, and that of a point at
+    /// this distance from the axis.
     pub(super) fn speed(self, size: f64) -> f64 {
         norm(&self.velocity).max(norm(&self.omega) * size)
     }
 
-    /// Returns how a body with this centre of mass moves in a mechanism of this size. A rotation
-    /// about a line at a distance of 1/[`VISIBLE`] sizes is a translation. An advance below
-    /// [`VISIBLE`] of the fastest velocity counts as zero.
+    /// Returns the movement of a body with this centre of mass in a mechanism of this size. A
+    /// rotation about a line whose distance is at least 1/[`VISIBLE`] sizes is a translation. An
+    /// advance below [`VISIBLE`] times the fastest velocity counts as zero.
     pub(super) fn movement(self, centre: [f64; 3], size: f64) -> Movement {
         let Self { velocity, omega } = self;
         let (speed, rate) = (norm(&velocity), norm(&omega));

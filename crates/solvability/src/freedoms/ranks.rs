@@ -19,7 +19,7 @@ pub struct WithoutDrives {
 pub(crate) struct PartialRanks {
     pub(crate) holonomic: usize,
     pub(crate) nonholonomic: usize,
-    /// `None` if there are no drives.
+    /// Rank and redundancy without drives. `None` if there are no drives.
     pub(crate) without_drives: Option<WithoutDrives>,
     /// Descriptions of undecided ranks.
     pub(crate) warnings: Vec<String>,

@@ -16,7 +16,7 @@ use crate::analyse;
 
 const GROUND: BodyRef = BodyRef::Ground;
 
-/// Permitted difference between computed and derived numbers: rounding.
+/// Permitted difference between computed and derived numbers. It is a rounding error.
 const ROUNDING: f64 = 1e-12;
 
 /// A bar with its centre of mass at `position`.
@@ -61,8 +61,8 @@ fn pusher(d: &mut Description, name: &str, bodies: [BodyRef; 2], place: [f64; 2]
     );
 }
 
-/// Thirty four-bars on a tower of two parts on a carriage. The rail has the largest distance from
-/// their joints, but it moves alone.
+/// Thirty four-bars on a tower of two parts on a carriage. The rail is farther from the joints of
+/// the four-bars than any other joint, but it moves alone.
 #[test]
 fn the_motion_of_fewest_joints_comes_first() {
     let mut d = Description::new("carriage");
@@ -118,7 +118,7 @@ fn texts(motions: &FreeMotions) -> Vec<&str> {
     motions.motions.iter().map(|m| m.text.as_str()).collect()
 }
 
-/// Compares the velocities of one motion with the derived ones.
+/// Compares the velocities of one motion with the derived velocities.
 fn moves(motions: &FreeMotions, which: usize, expected: &[(usize, [f64; 3])]) {
     let [found] = motions.motions[which].velocities.as_slice() else {
         panic!("{motions:?}");
@@ -151,7 +151,8 @@ fn four_bar() -> Description {
     d
 }
 
-/// v_B = (−ω, 0), v_C = ω_r·(−2, −1) and v_C − v_B = ω_c·(−1, 2): ω_c = −ω/5, ω_r = 2ω/5.
+/// The velocities are v_B = (−ω, 0), v_C = ω_r·(−2, −1) and v_C − v_B = ω_c·(−1, 2). It follows
+/// that ω_c = −ω/5 and ω_r = 2ω/5.
 #[test]
 fn a_four_bar_moves_without_its_motor_only() {
     const WORDS: &str = "`crank` turns about `A`; with it `coupler` and `rocker` turn";
@@ -178,7 +179,7 @@ fn a_four_bar_moves_without_its_motor_only() {
     moves(&without.motions, 0, &derived);
 }
 
-/// If the rocker is driven, it is named first, because the drive moves it.
+/// If the rocker is driven, the rocker is named first, because the drive moves it.
 #[test]
 fn what_a_drive_moves_is_named_first() {
     let mut d = four_bar();
@@ -188,7 +189,8 @@ fn what_a_drive_moves_is_named_first() {
     assert_eq!(texts(&without.motions), [words]);
 }
 
-/// Two motors that follow the same law: redundancy 1 with them, none without.
+/// Two motors follow the same law. With the motors the redundancy is 1, and without them it is
+/// zero.
 #[test]
 fn redundant_drives_leave_no_redundancy_behind() {
     let mut d = four_bar();
@@ -215,7 +217,7 @@ fn a_slider_slides_along_its_rail() {
     assert_eq!((driven.mobility, without), (0, 1));
 }
 
-/// A cart on a rail with a wheel pinned at its centre: the wheel can rotate alone.
+/// A cart on a rail has a wheel that is pinned at its centre. The wheel can rotate alone.
 #[test]
 fn a_wheel_at_its_centre_spins_alone() {
     let mut d = Description::new("cart");
@@ -237,7 +239,7 @@ fn a_wheel_at_its_centre_spins_alone() {
     );
 }
 
-/// Each link rotates about its own joint and carries the links after it.
+/// Each link rotates about its own joint and moves all later links.
 #[test]
 fn links_of_a_chain_turn_about_their_own_joints() {
     let mut d = Description::new("arm");
@@ -280,7 +282,7 @@ fn a_body_that_nothing_holds_is_free() {
     assert_eq!(free.motions.motions[1].velocities, expected);
 }
 
-/// Without drives, a body that only a drive connects to the ground is free.
+/// If drives are omitted, a body that is connected to the ground only by a drive is free.
 #[test]
 fn a_body_that_a_drive_alone_holds_is_free_without_it() {
     let mut d = Description::new("driven stone");
@@ -294,8 +296,8 @@ fn a_body_that_a_drive_alone_holds_is_free_without_it() {
     assert_eq!(texts(&without.motions), ["`stone` is free"]);
 }
 
-/// Two bars pinned only to each other have three freedoms of both together, and one between them,
-/// which is described by the lighter bar.
+/// Two bars that are pinned only to each other have three freedoms of both bars together, and one
+/// freedom of their relative motion. The relative motion is described by the lighter bar.
 #[test]
 fn bodies_that_hold_only_each_other_are_free_together() {
     let mut d = Description::new("bars");
@@ -369,8 +371,8 @@ fn a_car_turns_about_the_point_where_its_axles_meet() {
     moves(&free.motions, 0, &[(0, [3.0, 1.0, 1.0])]);
 }
 
-/// Sun 30 teeth, planet 15, fixed ring 60: with the carrier at 1/3, the sun rotates by 1 and the
-/// planet by −1.
+/// A sun wheel with 30 teeth, a planet wheel with 15 teeth and a fixed ring with 60 teeth. If the
+/// carrier rotates by 1/3, the sun rotates by 1 and the planet by −1.
 #[test]
 fn wheels_of_a_planetary_gear_turn_together() {
     let mut d = Description::new("planetary gear");
@@ -398,7 +400,7 @@ fn wheels_of_a_planetary_gear_turn_together() {
     moves(&free.motions, 0, &derived);
 }
 
-/// A slide with a tool that slides across it: each axis moves separately.
+/// A slide with a tool that slides across the slide. Each axis moves separately.
 #[test]
 fn slides_on_slides_move_along_their_axes() {
     let mut d = Description::new("gantry");

@@ -1,5 +1,5 @@
-//! Describes free motions as sentences: which body rotates about which point or axis, which body
-//! slides, and which bodies move with it.
+//! Describes free motions as sentences. A sentence states which body rotates about which point or
+//! axis, which body slides, and which bodies move with this body.
 
 use crate::limits::{NAMED_BODIES, SAME_PLACE, TOLD_MOVEMENTS};
 use model::space::{cross, difference, dot, norm};
@@ -10,8 +10,8 @@ use super::movement::{Line, Movement, Twist};
 use crate::words::{components, list, place};
 use model::words::short;
 
-/// Describes a motion of a component and returns its velocities with the sign that the text
-/// implies: positive rotation, or translation along the first axis.
+/// Describes a motion of a component. Also returns the velocities of the motion with the sign that
+/// the text implies: positive rotation, or translation along the first axis.
 pub(super) fn tell(
     of: &Component<'_>,
     driven: &[usize],
@@ -95,7 +95,8 @@ fn with_it(of: &Component<'_>, v: &Velocities, bodies: Vec<usize>) -> Vec<String
     said
 }
 
-/// Describes bodies that move together, with the values of one of them: "`nut` turns about `A`".
+/// Describes bodies that move together, with the values of one of these bodies: "`nut` turns about
+/// `A`".
 fn sentence(of: &Component<'_>, v: &Velocities, one: usize, bodies: &[usize]) -> String {
     let names = named(of.mechanism, bodies);
     let (s, together) = match bodies.len() {
@@ -118,7 +119,7 @@ fn sentence(of: &Component<'_>, v: &Velocities, one: usize, bodies: &[usize]) ->
     }
 }
 
-/// Lists which bodies rotate and which slide, without axis and position.
+/// Lists which bodies rotate and which bodies slide, without axis and position.
 fn verbs(of: &Component<'_>, v: &Velocities, bodies: Vec<usize>) -> Vec<String> {
     let slides = |b: &usize| matches!(movement(of, v, *b), Movement::Slide(_));
     let (sliding, turning): (Vec<usize>, Vec<usize>) = bodies.into_iter().partition(slides);
@@ -131,8 +132,8 @@ fn verbs(of: &Component<'_>, v: &Velocities, bodies: Vec<usize>) -> Vec<String> 
     .collect()
 }
 
-/// Returns the body that is named first: preferably a body that slides or rotates about a joint,
-/// then a body on which a drive acts, then a body that is joined to the ground.
+/// Returns the body that is named first. The function prefers a body that slides or rotates about a
+/// joint, then a body on which a drive acts, then a body that is joined to the ground.
 fn leader(
     of: &Component<'_>,
     driven: &[usize],
@@ -171,9 +172,9 @@ fn movement(of: &Component<'_>, v: &Velocities, body: usize) -> Movement {
     twist(of, v, body).movement(of.origin(body), of.size)
 }
 
-/// Describes a line about which bodies rotate. In the plane, the text names its point: a joint of
-/// the bodies, "its centre of mass", or coordinates. In space, it names the line through such
-/// points and its direction.
+/// Describes a line about which bodies rotate. In the plane, the text contains a point of the line:
+/// a joint of the bodies, "its centre of mass", or coordinates. In space, the text contains such
+/// points of the line, and the direction of the line.
 fn about(of: &Component<'_>, bodies: &[usize], line: Line) -> String {
     let through = match (joints_on(of, bodies, line).as_slice(), bodies) {
         ([], [only]) if is_on(of, of.origin(*only), line) => "its centre of mass".to_owned(),
@@ -192,9 +193,9 @@ fn about(of: &Component<'_>, bodies: &[usize], line: Line) -> String {
     }
 }
 
-/// Returns the joint of these bodies that is on a line. If there are several, it returns the joint
-/// with the most constraints, and another joint with as many constraints at another point of the
-/// line.
+/// Returns the joint of these bodies that is on a line. If there are several such joints, the
+/// function returns the joint with the most constraints. In this case, it also returns another
+/// joint with as many constraints at another point of the line.
 fn joints_on(of: &Component<'_>, bodies: &[usize], line: Line) -> Vec<String> {
     let layout = of.mechanism.layout();
     let holds = |k: usize| {
@@ -227,7 +228,7 @@ fn direction(of: &Component<'_>, unit: [f64; 3]) -> String {
     components(&unit[of.mechanism.space().forces()], 1.0)
 }
 
-/// Returns the names of bodies, with a count in place of a long list.
+/// Returns the names of bodies. A count replaces the end of a long list.
 fn named(mechanism: &Mechanism, bodies: &[usize]) -> String {
     let name = |&b: &usize| format!("`{}`", mechanism.bodies()[b].name);
     // If a count would replace only one name, the name is printed.

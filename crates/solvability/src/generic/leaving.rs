@@ -1,5 +1,5 @@
-//! Determines how a mechanism without its drives can leave a configuration, according to second
-//! order: the excluded velocities, and the tangents of branches. Velocities are dimensionless.
+//! Determines how a mechanism without its drives can leave a configuration at second order. The
+//! results are the excluded velocities and the tangents of branches. Velocities are dimensionless.
 
 use std::borrow::Cow;
 
@@ -13,10 +13,10 @@ use crate::second_order::{Continuation, blocked_velocities, second_order};
 /// The joints of a mechanism that constrain its configuration.
 pub(super) struct Leaving<'m> {
     mechanism: Cow<'m, Mechanism>,
-    /// Indices of the joints in the mechanism; `None` for all joints.
+    /// Indices of the joints in the mechanism; `None` denotes all joints.
     places: Option<Places>,
     n_v: usize,
-    /// Number of velocities that second order excludes at the first configuration.
+    /// Number of velocities that are excluded at second order at the first configuration.
     excluded: usize,
 }
 
@@ -45,14 +45,14 @@ impl<'m> Leaving<'m> {
         own
     }
 
-    /// Returns whether second order excludes velocities at the first configuration.
+    /// Returns whether velocities are excluded at second order at the first configuration.
     pub(super) fn excludes(&self) -> bool {
         self.excluded > 0
     }
 
-    /// Returns the free directions at a configuration (orthonormal, in rows) that second order does
-    /// not exclude. Returns `None` if it excludes fewer velocities than at the first configuration,
-    /// because another branch may begin there.
+    /// Returns the free directions at a configuration (orthonormal, in rows) that are not excluded
+    /// at second order. Returns `None` if fewer velocities are excluded than at the first
+    /// configuration, because another branch may begin at this configuration.
     pub(super) fn possible(
         &self,
         free: Matrix,
@@ -77,8 +77,8 @@ impl<'m> Leaving<'m> {
         Some(rest.transpose().product(&free))
     }
 
-    /// Returns the tangents of the branches that meet at a configuration. The list is empty if
-    /// second order does not separate the branches.
+    /// Returns the tangents of the branches that meet at a configuration. The list is empty if the
+    /// branches cannot be separated at second order.
     pub(super) fn branches(&self, at: (f64, &[f64]), units: &[f64]) -> Vec<Vec<f64>> {
         let found = self.decided(at).and_then(|(q, decision)| {
             let n = self.mechanism.layout().n_v;
@@ -91,7 +91,7 @@ impl<'m> Leaving<'m> {
         }
     }
 
-    /// Returns the velocities of the joints that second order excludes.
+    /// Returns the velocities of the joints that are excluded at second order.
     fn excluded(&self, at: (f64, &[f64])) -> Vec<Vec<f64>> {
         let found = self.decided(at).and_then(|(q, decision)| {
             blocked_velocities(&self.mechanism, at.0, &q, &decision).ok()
@@ -99,7 +99,7 @@ impl<'m> Leaving<'m> {
         found.unwrap_or_default()
     }
 
-    /// Returns the coordinates of the joints, and their rank; `None` if the second-order analysis
+    /// Returns the coordinates of the joints and their rank, or `None` if the second-order analysis
     /// does not apply.
     fn decided(&self, (t, q): (f64, &[f64])) -> Option<(Vec<f64>, RankDecision)> {
         let layout = self.mechanism.layout();

@@ -1,5 +1,5 @@
 //! Continuation to other configurations along the motions that the constraints allow without the
-//! drives, and the ranks there.
+//! drives. Also determines the ranks at these configurations.
 
 use linalg::{Matrix, PivotedQr};
 use model::start::{Metric, nearest_configuration, scene_size};
@@ -32,9 +32,9 @@ impl LastingRows {
         Self { held, dropped }
     }
 
-    /// Returns whether data within the tolerance explain the residuals of the dropped rows at a
-    /// point where the other rows are satisfied. On another branch of the satisfied rows they do
-    /// not.
+    /// Returns whether the residuals of the dropped rows can result from data within the tolerance.
+    /// The other rows must be satisfied at the point. On another branch of the satisfied rows, the
+    /// residuals are larger.
     fn agree(&self, mechanism: &Mechanism, t: f64, q: &[f64]) -> bool {
         if self.dropped.is_empty() {
             return true;
@@ -76,7 +76,7 @@ pub(super) struct Walker<'m> {
 }
 
 impl Walker<'_> {
-    /// Returns the last point of one continuation, if it moved away from the start.
+    /// Returns the last point of one continuation if the continuation moved away from the start.
     pub(super) fn walk_from(&self, from: &(f64, Vec<f64>), walk: usize) -> Option<(f64, Vec<f64>)> {
         // Different step lengths prevent the continuations from returning to the start.
         let stride = GENERIC_STEP * (1.0 + 0.5 * spread(walk + 1));
@@ -101,7 +101,8 @@ impl Walker<'_> {
                 let there = self.step((t, &q), &kept, &ahead, stride)?;
                 Some((there, ahead))
             };
-            // Where branches meet, a mixture of their directions may not be a possible motion.
+            // If branches meet at a point, a mixture of their directions may not be a possible
+            // motion.
             let next = step(ahead).or_else(|| {
                 let mut branches = match heading {
                     None => self.leaving.branches((t, &q), &self.units),
@@ -122,7 +123,7 @@ impl Walker<'_> {
     }
 
     /// Returns the configuration after a step along a dimensionless velocity. The length of the
-    /// step is the stride, possibly halved several times.
+    /// step is the stride, which may be halved several times.
     fn step(
         &self,
         (t, q): (f64, &[f64]),
@@ -147,13 +148,13 @@ impl Walker<'_> {
             let on = |rows: &[usize]| {
                 let there = nearest_configuration(mechanism, later, rows, &moved, Metric::Length);
                 let there = there.ok()?;
-                // A correction as long as the step leads to another branch.
+                // If a correction is as long as the step, it leads to another branch.
                 let has_strayed =
                     !self.moves_time && self.apart(&there, &moved) > GENERIC_STRAYED * length;
                 (!has_strayed).then_some(there)
             };
-            // If rows remain redundant, the kept rows determine more digits. The other rows
-            // restrict a rotation that they block only to the square root of rounding.
+            // If rows remain redundant, the kept rows determine more digits. The other rows block a
+            // rotation only to the square root of rounding.
             let there = on(kept).filter(|there| self.hold(later, there));
             let there = there.or_else(|| on(&self.rows.held))?;
             self.rows
@@ -192,7 +193,7 @@ impl Walker<'_> {
         Some((free.transpose(), rows.collect()))
     }
 
-    /// Returns the rank of the compared rows at a point, if it is decided there.
+    /// Returns the rank of the compared rows at a point if this rank is decided.
     pub(super) fn elsewhere(
         &self,
         (t, q): &(f64, Vec<f64>),
@@ -200,9 +201,9 @@ impl Walker<'_> {
     ) -> Option<(OtherConfiguration, DecidedRows)> {
         let mechanism = self.mechanism;
         let mut s = crate::pose::evaluated(mechanism, *t, q);
-        // The continuation omitted drives, which have other values at this configuration. A row
-        // that was omitted because it is redundant within a tolerance has to agree with the other
-        // rows there.
+        // The continuation omitted drives. At this configuration, drives have other values. A row
+        // that was omitted because it is redundant within a tolerance must agree with the other
+        // rows at this configuration.
         let drives = mechanism.layout().groups.iter().filter(|g| g.is_drive());
         for rows in drives.map(|g| g.rows.holonomic.clone()) {
             s.phi[rows].fill(0.0);
@@ -256,8 +257,8 @@ fn mixed(directions: &Matrix, walk: usize) -> Vec<f64> {
     directions.transpose_times(&coefficients)
 }
 
-/// Returns numbers that are spread evenly between −½ and ½: the fractional parts of multiples of
-/// the golden ratio.
+/// Returns numbers that are spread evenly between −½ and ½. The numbers are the fractional parts of
+/// multiples of the golden ratio.
 fn spread(k: usize) -> f64 {
     const GOLDEN: f64 = 0.618_033_988_749_894_9;
     (GOLDEN * k as f64).fract() - 0.5

@@ -1,5 +1,5 @@
-//! A mechanism at a configuration with a decided rank, which returns verdicts on the numbers of its
-//! reactions.
+//! A mechanism at a configuration with a decided rank. The configuration returns verdicts on the
+//! numbers of its reactions.
 
 use crate::pose::{dimensionless, evaluated, uncertainty};
 use std::borrow::Cow;
@@ -15,7 +15,7 @@ use crate::error::AnalysisError;
 use crate::matrices::Solvability;
 use crate::verdict::Judgement;
 
-/// A mechanism at time t and coordinates q, with the rank of C there.
+/// A mechanism at time t and coordinates q, and the rank of C at this configuration.
 pub struct Configuration<'a> {
     pub(crate) reactions: ReactionForms<'a>,
     pub(crate) solvability: Solvability,
@@ -39,7 +39,7 @@ impl<'a> Configuration<'a> {
     /// Works like [`Self::new`], with a copy of the mechanism.
     ///
     /// # Errors
-    /// Returns the errors of [`Self::new`].
+    /// Returns the same errors as [`Self::new`].
     pub fn owned(
         mechanism: &Mechanism,
         t: f64,
@@ -69,7 +69,7 @@ impl<'a> Configuration<'a> {
         })
     }
 
-    /// Works like [`Self::new`], for a mechanism whose ownership passes to the configuration.
+    /// Works like [`Self::new`], but takes ownership of the mechanism.
     pub(crate) fn of(
         mechanism: Cow<'a, Mechanism>,
         t: f64,

@@ -103,8 +103,8 @@ impl RequestError {
     }
 }
 
-/// Returns the error for a joint or drive that does not exist, or otherwise for a component that it
-/// does not have.
+/// Returns the error for a joint or drive that does not exist. If the joint or drive exists,
+/// returns the error for a component that it does not have.
 pub(crate) fn unknown_component(
     mechanism: &Mechanism,
     id: ConstraintId,
@@ -129,7 +129,7 @@ pub(crate) fn unknown_component(
     }
 }
 
-/// Checks the length of an argument and that its entries are finite.
+/// Checks the length of an argument, and checks that its entries are finite.
 pub(crate) fn check(
     argument: &'static str,
     x: &[f64],

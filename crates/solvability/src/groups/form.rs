@@ -1,5 +1,5 @@
-//! A number that is linear in the multipliers, with the size of the terms in its sum: a component,
-//! a sum of components, a moment about a point, or a resultant.
+//! A number that is linear in the multipliers, and the size of the terms in its sum. Such numbers
+//! are a component, a sum of components, a moment about a point, or a resultant.
 
 use linalg::Matrix;
 
@@ -8,11 +8,11 @@ use crate::choices::FreeMultipliers;
 use crate::matrices::Solvability;
 use crate::verdict::Judgement;
 
-/// `ℓᵀ·λ` over all rows, a sum of terms.
+/// The number `ℓᵀ·λ`, which is a sum of terms over all rows.
 ///
-/// The sizes determine the rounding: if terms cancel, the remainder is compared with the terms, not
-/// with itself. A total that vanishes identically is therefore unique, even if rounding leaves a
-/// remainder.
+/// The sizes of the terms determine the rounding. If terms cancel, the remainder is compared with
+/// the terms, not with itself. Therefore a total that vanishes identically is unique, even if
+/// rounding leaves a remainder.
 ///
 /// ```
 /// use linalg::Matrix;
@@ -39,7 +39,7 @@ pub struct LinearForm {
 }
 
 impl LinearForm {
-    /// Returns the form zero, for a matrix with this many rows.
+    /// Returns the form zero for a matrix with this number of rows.
     #[must_use]
     pub fn zero(rows: usize) -> Self {
         Self {
@@ -124,8 +124,8 @@ impl LinearForm {
         sizes.map(|(i, size)| size * of_row(i)).sum()
     }
 
-    /// Returns the verdict on the number: unique iff `ℓᵀ·Z = 0`. The margin is relative to the size
-    /// of the terms. Both are computed for equilibrated rows.
+    /// Returns the verdict on the number. The number is unique iff `ℓᵀ·Z = 0`. The margin is
+    /// relative to the size of the terms. Both values are computed for equilibrated rows.
     ///
     /// # Errors
     /// [`RequestError::Length`]: the matrix has another number of rows.
@@ -142,8 +142,9 @@ impl LinearForm {
         Ok(solvability.component(&self.map_of(&all), 0, all)?)
     }
 
-    /// Returns the part of the form that belongs to these rows, as the first row of a map. A
-    /// component is compared with the largest row of its map; the second row contains the sizes.
+    /// Returns the part of the form that belongs to these rows, as the first row of a map. The
+    /// second row contains the sizes, because a component is compared with the largest row of its
+    /// map.
     pub(crate) fn map_of(&self, rows: &[usize]) -> Matrix {
         let largest = match self.sizes.iter().fold(0.0, |a: f64, &b| a.max(b)) {
             0.0 => 1.0,
@@ -159,8 +160,8 @@ impl LinearForm {
     }
 
     /// Returns `ℓᵀ·Ẑ / ‖sizes‖` for an orthonormal basis Ẑ of the left null space of the
-    /// equilibrated matrix. The result is the margin as a vector. The second value is the divisor
-    /// (1 for a form without terms).
+    /// equilibrated matrix. The result is the margin as a vector. The second value is the divisor,
+    /// which is 1 for a form without terms.
     pub(crate) fn image(&self, free: &FreeMultipliers<'_>) -> (Vec<f64>, f64) {
         let scaled = |x: &[f64]| -> Vec<f64> {
             let pairs = x.iter().zip(free.row_factor.iter());

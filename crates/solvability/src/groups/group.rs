@@ -7,17 +7,19 @@ use super::error::RequestError;
 /// A group on which a verdict is requested.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Group {
-    /// The reactions of these joints and drives together: unique iff every one of them is unique.
+    /// The reactions of these joints and drives together. The reactions are unique iff each of the
+    /// reactions is unique.
     Members(Vec<ConstraintId>),
-    /// These joints and drives as one joint: unique iff their total wrench on each body is unique.
+    /// These joints and drives as one joint. The joint is unique iff the total wrench on each body
+    /// is unique.
     OneJoint(Vec<ConstraintId>),
-    /// `Σ coefficient · component`: one number.
+    /// The number `Σ coefficient · component`.
     Combination(Vec<Term>),
-    /// `Σ coefficient · wrench`, with each wrench on the first body of its joint. Torques refer to
-    /// the reference point of the first joint.
+    /// The sum `Σ coefficient · wrench`, with each wrench on the first body of its joint. Torques
+    /// refer to the reference point of the first joint.
     WrenchSum(Vec<(f64, ConstraintId)>),
-    /// The total of all joints and drives that act on these bodies. Torques refer to the origin of
-    /// the first body. The total is unique by the Newton-Euler equations.
+    /// The sum of the reactions of all joints and drives that act on these bodies. Torques refer to
+    /// the origin of the first body. The sum is unique by the Newton-Euler equations.
     Resultant(Vec<usize>),
 }
 
@@ -26,7 +28,7 @@ pub enum Group {
 pub struct Term {
     /// The joint or drive.
     pub reaction: ConstraintId,
-    /// `Fx`, `Fy`, `T`, or the named component of its definition.
+    /// Name of the component: `Fx`, `Fy`, `T`, or the named component of the definition.
     pub component: String,
     /// The coefficient.
     pub coefficient: f64,
@@ -49,7 +51,7 @@ impl Group {
         }
     }
 
-    /// Returns the SI unit of the sum, if all of its terms have the same unit.
+    /// Returns the SI unit of the sum if all of its terms have the same unit.
     #[must_use]
     pub fn unit(&self, layout: &Layout) -> Option<&'static str> {
         let Self::Combination(terms) = self else {
@@ -63,7 +65,7 @@ impl Group {
     }
 
     /// Returns the part of the group that belongs to some of the joints and drives, with the ids of
-    /// that selection; `None` if the group has no such part.
+    /// this selection. Returns `None` if the group has no such part.
     #[must_use]
     pub fn share(&self, own: impl Fn(ConstraintId) -> Option<ConstraintId>) -> Option<Self> {
         let ids = |ids: &[ConstraintId]| ids.iter().filter_map(|&id| own(id)).collect::<Vec<_>>();

@@ -13,12 +13,12 @@ pub struct GroupNumbers<'m> {
     mechanism: &'m Mechanism,
     groups: Vec<Group>,
     s: Scratch,
-    /// Length by which torques are divided for comparison with forces (m).
+    /// Length (m) by which torques are divided so that they can be compared with forces.
     size: f64,
 }
 
 impl<'m> GroupNumbers<'m> {
-    /// Creates groups of a mechanism. The coordinates q define its size.
+    /// Creates groups of a mechanism. The coordinates q define the size of the mechanism.
     #[must_use]
     pub fn new(mechanism: &'m Mechanism, q: &[f64], groups: &[Group]) -> Self {
         Self {
@@ -35,12 +35,12 @@ impl<'m> GroupNumbers<'m> {
         &self.groups
     }
 
-    /// Returns the values of all group components (N, N·m) at time t and coordinates q, computed
-    /// from the multipliers of all rows. The values of one group follow each other, in the order of
-    /// [`Group::number_names`].
+    /// Returns the values of all group components (N, N·m) at time t and coordinates q. The values
+    /// are computed from the multipliers of all rows. The values of one group are consecutive, in
+    /// the order of [`Group::number_names`].
     ///
     /// # Errors
-    /// Same errors as [`crate::judge_groups`].
+    /// Returns the same errors as [`crate::judge_groups`].
     pub fn at(
         &mut self,
         t: f64,

@@ -16,7 +16,7 @@ use super::group::{Group, NO_REACTION, Term};
 pub struct ReactionForms<'a> {
     pub(crate) mechanism: Cow<'a, Mechanism>,
     pub(crate) s: Cow<'a, Scratch>,
-    /// Length by which torques are divided for comparison with forces (m).
+    /// Length (m) by which torques are divided so that they can be compared with forces.
     pub(crate) size: f64,
 }
 
@@ -51,8 +51,8 @@ impl<'a> ReactionForms<'a> {
         Ok(self.mechanism.reactions(&self.s).place(id))
     }
 
-    /// Returns the force of a reaction along a direction (global components; a unit vector gives
-    /// N).
+    /// Returns the force of a reaction along a direction in global components. For a unit vector,
+    /// the unit of the force is N.
     ///
     /// # Errors
     /// [`RequestError::UnknownReaction`], [`RequestError::NotFinite`]
@@ -69,8 +69,9 @@ impl<'a> ReactionForms<'a> {
         Ok(form)
     }
 
-    /// Returns the torque of a reaction along a direction (a unit vector gives N·m), about a point,
-    /// all in ground axes. In the plane, only the z component of the direction counts.
+    /// Returns the torque of a reaction along a direction about a point, both in ground axes. For a
+    /// unit vector, the unit of the torque is N·m. In the plane, only the z component of the
+    /// direction counts.
     ///
     /// # Errors
     /// [`RequestError::UnknownReaction`], [`RequestError::NotFinite`]
@@ -114,8 +115,8 @@ impl<'a> ReactionForms<'a> {
         axes.collect()
     }
 
-    /// Returns a component of a reaction by its name: a component of the space, or the named
-    /// component of the definition.
+    /// Returns a component of a reaction by its name. The component is a component of the space, or
+    /// the named component of the definition.
     ///
     /// # Errors
     /// [`RequestError::UnknownReaction`], [`RequestError::UnknownComponent`]
@@ -146,8 +147,8 @@ impl<'a> ReactionForms<'a> {
         Ok(form)
     }
 
-    /// Returns the total of all reactions on a set of bodies: all components, with torques about a
-    /// point in ground axes. A body that is listed twice counts once.
+    /// Returns the sum of all reactions on a set of bodies. The result contains all components,
+    /// with torques about a point in ground axes. A body that is listed twice counts once.
     ///
     /// # Errors
     /// [`RequestError::UnknownBody`], [`RequestError::Empty`], [`RequestError::NotFinite`]
@@ -210,8 +211,9 @@ impl<'a> ReactionForms<'a> {
         }
     }
 
-    /// Adds `along · (map·λ)` for a map of these rows. The size of a term is the magnitude of its
-    /// force, and for torques also that force times the size of the mechanism.
+    /// Adds `along · (map·λ)` for a map of these rows. For forces, the size of a term is the
+    /// magnitude of its force. For torques, the magnitude of the force times the size of the
+    /// mechanism is added.
     fn add_wrench(
         &self,
         form: &mut LinearForm,
@@ -263,16 +265,16 @@ impl<'a> ReactionForms<'a> {
         &self.mechanism.layout().groups[id.0].rows
     }
 
-    /// Returns the numbers of a group with their names: the `sum` of a combination, or all
-    /// components of wrenches. A group of several separate reactions has no numbers.
+    /// Returns the numbers of a group with their names. The numbers are the `sum` of a combination,
+    /// or all components of wrenches. A group of several separate reactions has no numbers.
     ///
     /// # Errors
-    /// Same errors as [`crate::judge_groups`].
+    /// Returns the same errors as [`crate::judge_groups`].
     pub fn numbers(&self, group: &Group) -> Result<Vec<(&'static str, LinearForm)>, RequestError> {
         self.numbers_about(group, self.about(group)?)
     }
 
-    /// Works like [`Self::numbers`], with the torques T of wrenches about this point.
+    /// Works like [`Self::numbers`], but the torques T of wrenches are about this point.
     pub(crate) fn numbers_about(
         &self,
         group: &Group,
@@ -299,10 +301,10 @@ impl<'a> ReactionForms<'a> {
         }
     }
 
-    /// Returns `Σ coefficient · component`.
+    /// Returns the sum `Σ coefficient · component`.
     ///
     /// # Errors
-    /// Same errors as [`crate::judge_groups`].
+    /// Returns the same errors as [`crate::judge_groups`].
     pub fn combination(&self, terms: &[Term]) -> Result<LinearForm, RequestError> {
         if terms.is_empty() {
             return Err(RequestError::Empty { of: "term" });
@@ -323,7 +325,7 @@ impl<'a> ReactionForms<'a> {
     /// of the first reaction.
     ///
     /// # Errors
-    /// Same errors as [`crate::judge_groups`].
+    /// Returns the same errors as [`crate::judge_groups`].
     pub fn wrench_sum(
         &self,
         terms: &[(f64, ConstraintId)],

@@ -1,5 +1,5 @@
-//! Verdicts on rows with a given left null space: all rows of a matrix, or the rows of one joint in
-//! a large mechanism.
+//! Verdicts on rows with a given left null space. The rows are all rows of a matrix, or the rows of
+//! one joint in a large mechanism.
 //!
 //! This module does not compute the null space.
 
@@ -12,13 +12,13 @@ use super::MultiplierMap;
 use super::error::QueryError;
 use crate::verdict::{Judgement, Verdict, worst};
 
-/// Rows, vectors that span their part of the left null space, and the accuracy of both.
+/// Rows, vectors that span the part of the left null space in these rows, and the accuracy of both.
 #[derive(Clone, Debug)]
 pub(crate) struct Basis {
     /// The equilibrated rows, m × n. Columns without an entry may be omitted.
     pub(crate) c: Matrix,
-    /// The rows of an orthonormal basis of the left null space, or of random combinations of it, m
-    /// × p.
+    /// The rows of an orthonormal basis of the left null space, or of random combinations of the
+    /// basis, m × p.
     pub(crate) z: Matrix,
     /// Accuracy of `c` and `z`.
     pub(crate) known: RowAccuracy,
@@ -44,15 +44,15 @@ pub(crate) struct RowAccuracy {
     pub(crate) spread: f64,
     /// Uncertainty of an entry of C.
     pub(crate) uncertainty: f64,
-    /// The angle (rad) by which the force of each row rotates within a stated tolerance, and the
-    /// length (m) by which it shifts; `None` without a tolerance.
+    /// For each row, the angle (rad) by which its force rotates and the length (m) by which its
+    /// force shifts within a stated tolerance; `None` without a tolerance.
     pub(crate) row_turn: Option<Vec<[f64; 2]>>,
     /// Rules by which margins are classified.
     pub(crate) readings: Readings,
 }
 
 impl Basis {
-    /// Returns the verdict on the multiplier of one row: unique iff `Z_i = 0`.
+    /// Returns the verdict on the multiplier of one row. The multiplier is unique iff `Z_i = 0`.
     ///
     /// # Errors
     /// Returns an error if the row does not exist.
@@ -60,8 +60,9 @@ impl Basis {
         self.multipliers([i])
     }
 
-    /// Returns the verdict on all multipliers of a group of rows: unique iff `Z_X = 0`. This
-    /// condition is stronger than that of [`Basis::group`] if the rows depend on each other.
+    /// Returns the verdict on all multipliers of a group of rows. The multipliers are unique iff
+    /// `Z_X = 0`. If the rows depend on each other, this condition is stronger than the condition
+    /// of [`Basis::group`].
     ///
     /// # Errors
     /// Returns an error if a row does not exist.
@@ -74,8 +75,8 @@ impl Basis {
             let noise = self.noise(std::iter::once((i, 1.0)));
             self.judge(norm(self.z.row(i)), noise, |z| z.annihilates([(i, 1.0)]))
         });
-        // Each row has its own noise: a large noise of one row must not hide a certain result of
-        // another.
+        // Each row has its own noise. A large noise of one row must not hide a certain result of
+        // another row.
         let judged: Vec<Judgement> = judged.collect();
         let margin = judged.iter().map(|j| j.margin).fold(0.0, f64::hypot);
         let unique = Judgement::new(Verdict::Unique, 0.0);
@@ -91,8 +92,8 @@ impl Basis {
         Ok(self.product(&self.set(rows)?))
     }
 
-    /// Returns the verdict on the reaction of a group of rows: unique iff `B_X = 0`; the margin is
-    /// ‖B_X‖ (Frobenius).
+    /// Returns the verdict on the reaction of a group of rows. The reaction is unique iff `B_X =
+    /// 0`, and the margin is ‖B_X‖ (Frobenius).
     ///
     /// # Errors
     /// Returns an error if a row does not exist.
@@ -101,7 +102,7 @@ impl Basis {
         rows: impl IntoIterator<Item = usize>,
     ) -> Result<Judgement, QueryError> {
         let rows = self.set(rows)?;
-        // Rows cancel in C only to the accuracy of its entries.
+        // Rows of C cancel only to the accuracy of the entries of C.
         let cancelled = rows.iter().map(|&i| norm(self.z.row(i)));
         let spread = self.known.spread * cancelled.fold(0.0, f64::hypot);
         let noise = self
@@ -111,8 +112,9 @@ impl Basis {
         Ok(self.judge(margin, noise, |z| z.wrench_vanishes(&rows)))
     }
 
-    /// Returns the verdict on a linear combination `ℓᵀ·λ` of all multipliers: unique iff
-    /// `ℓᵀ·Z = 0`. The margin is relative to ‖ℓ‖. Both are computed for equilibrated rows.
+    /// Returns the verdict on a linear combination `ℓᵀ·λ` of all multipliers. The combination is
+    /// unique iff `ℓᵀ·Z = 0`. The margin is relative to ‖ℓ‖. Both values are computed for
+    /// equilibrated rows.
     ///
     /// # Errors
     /// Returns an error if the number of coefficients is not m, or if a coefficient is not finite.
@@ -140,8 +142,8 @@ impl Basis {
         MultiplierMap::new(self, map, self.list(rows)?)
     }
 
-    /// Returns whether no dependency contains these rows. If so, all numbers that follow from their
-    /// multipliers are unique.
+    /// Returns whether no dependency contains these rows. In this case, all numbers that are
+    /// computed from their multipliers are unique.
     pub(crate) fn is_free_of(&self, rows: &[usize]) -> bool {
         let size = rows.iter().map(|&i| norm(self.z.row(i)));
         let size = size.fold(0.0, f64::hypot);
@@ -155,8 +157,8 @@ impl Basis {
     }
 
     /// Returns the rank of some of the rows (ascending) from the dependencies of all rows. The
-    /// dependencies without other rows (`z = 0` there) number `p − rank Z_other`. Returns `None` if
-    /// the rank of all rows is undecided, or if the rank of Z_other is unclear.
+    /// number of dependencies without other rows (`z = 0` in the other rows) is `p − rank Z_other`.
+    /// Returns `None` if the rank of all rows is undecided, or if the rank of Z_other is unclear.
     pub(crate) fn rank_of(&self, rows: &[usize]) -> Option<usize> {
         if self.known.status != RankStatus::Decided {
             return None;
@@ -177,14 +179,14 @@ impl Basis {
         Some(self.z.nrows() - other.len() + tied - self.z.ncols())
     }
 
-    /// Returns the accuracy of a map, which is the accuracy of the entries of C, because both are
-    /// evaluated at the same configuration.
+    /// Returns the accuracy of a map. The result is the accuracy of the entries of C, because the
+    /// map and C are evaluated at the same configuration.
     pub(super) fn rounding_of_map(&self) -> f64 {
         (rank::NOISE_FACTOR * self.known.uncertainty).max(ROUNDING_OF_MAP)
     }
 
-    /// Returns the number of pivots that are certainly not zero, provided that all others certainly
-    /// are zero.
+    /// Returns the number of pivots that are certainly not zero. All other pivots must certainly be
+    /// zero.
     pub(super) fn clear_rank(&self, qr: &PivotedQr, noise: f64) -> Result<usize, QueryError> {
         let mut rank = 0;
         for pivot in qr.r_diagonal().map(f64::abs) {
@@ -206,7 +208,7 @@ impl Basis {
         Ok(rank)
     }
 
-    /// Returns the rows in the given order, after a check that they exist.
+    /// Returns the rows in the given order. The function first checks that they exist.
     fn list(&self, rows: impl IntoIterator<Item = usize>) -> Result<Vec<usize>, QueryError> {
         let m = self.c.nrows();
         rows.into_iter()
@@ -220,7 +222,8 @@ impl Basis {
             .collect()
     }
 
-    /// Returns the rows in ascending order without repetition, after a check that they exist.
+    /// Returns the rows in ascending order without repetition. The function first checks that they
+    /// exist.
     fn set(&self, rows: impl IntoIterator<Item = usize>) -> Result<Vec<usize>, QueryError> {
         let mut rows = self.list(rows)?;
         rows.sort_unstable();
@@ -259,8 +262,8 @@ impl Basis {
         size
     }
 
-    /// Returns the noise of a combination of rows of Z with these weights. In a basis where no row
-    /// is longer, Z is `[−T̃, I]`.
+    /// Returns the noise of a combination of rows of Z with these weights. In the basis Z = `[−T̃,
+    /// I]`, no row is longer than in Z.
     fn noise(&self, weights: impl Iterator<Item = (usize, f64)>) -> Noise {
         let rounding = &self.known.row_rounding;
         weights.fold(Noise::default(), |noise, (i, weight)| Noise {
@@ -290,7 +293,7 @@ impl Basis {
         match (&self.exact, &self.known.status) {
             (Some(z), _) => Judgement::exact(margin, vanishes(z)),
             (None, RankStatus::Undecided(doubt)) => Judgement::without_rank(margin, doubt),
-            // If the rows are independent, no verdict is uncertain.
+            // If the rows are independent, every verdict is certain.
             (None, _) if self.z.ncols() == 0 => Judgement::new(Verdict::Unique, 0.0),
             (None, _) => {
                 let reading = self.known.readings.read(margin, noise.known);
@@ -305,7 +308,8 @@ impl Basis {
 pub(super) struct Noise {
     /// Bound with the whole uncertainty of the data.
     pub(super) known: f64,
-    /// Bound without the tolerance stated by the scene; infinite if the scene states no tolerance.
+    /// Bound without the tolerance stated by the scene. The bound is infinite if the scene states
+    /// no tolerance.
     pub(super) rounding: f64,
 }
 

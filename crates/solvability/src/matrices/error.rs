@@ -47,7 +47,7 @@ pub enum QueryError {
     Directions {
         /// The margin that is undecided.
         margin: f64,
-        /// Largest margin that rounding and uncertainty explain.
+        /// Largest margin that rounding and uncertainty can cause.
         tolerance: f64,
         /// Smallest margin that is certainly not zero.
         required: f64,

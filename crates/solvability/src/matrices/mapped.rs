@@ -1,6 +1,7 @@
 //! Decides which components and directions of a reaction `W·λ_X` are the same in all solutions.
 //!
-//! The rows and their null space come from `basis`, and W from `mechanism`.
+//! The module `basis` provides the rows and their null space, and the module `mechanism` provides
+//! W.
 
 use crate::limits::{LARGEST_ROUNDING, LARGEST_TURN, ROUNDING_OF_MAP};
 use linalg::{Matrix, PivotedQr};
@@ -10,7 +11,8 @@ use super::basis::{Basis, Noise, check_coefficients, combination, norm};
 use super::error::QueryError;
 use crate::verdict::{Judgement, Verdict};
 
-/// Reason why a component is undecided: within the data it cannot be distinguished from zero.
+/// Reason why a component is undecided. Within the tolerance of the data, it cannot be
+/// distinguished from zero.
 const TURNED: &str = "the tolerance leaves open whether the force has this component";
 
 /// Whether a component of a force or torque is zero, given the uncertainty of its direction.
@@ -20,11 +22,12 @@ enum ForceComponent {
     Nonzero,
     /// The component is zero within the tolerance; `margin` is its margin without the tolerance.
     Zero { margin: f64 },
-    /// Undecided: too large for zero, and too small to be certainly not zero.
+    /// The component is undecided: too large to count as zero, and too small to be certainly not
+    /// zero.
     Undecided,
 }
 
-/// A map W (k × |X|) from the multipliers of rows X to components, with the image of the null space
+/// A map W (k × |X|) from the multipliers of rows X to components, and the image of the null space
 /// under W.
 #[derive(Clone, Debug)]
 pub(crate) struct MultiplierMap<'a> {
@@ -33,7 +36,8 @@ pub(crate) struct MultiplierMap<'a> {
     rows: Vec<usize>,
     /// `W·Z_X` with rows divided by their size.
     images: Matrix,
-    /// Norms of the rows of `W·D_r⁻¹`; zero if a row is only rounding relative to the others.
+    /// Norms of the rows of `W·D_r⁻¹`. A norm is zero if the row is only rounding relative to the
+    /// other rows.
     sizes: Vec<f64>,
     /// The largest entry of `sizes`.
     largest: f64,
@@ -77,9 +81,10 @@ impl<'a> MultiplierMap<'a> {
     }
 
     /// Applies a stated tolerance to the components. The first `forces` components belong to a
-    /// force, the others to a torque. The uncertainty of the direction of a force or couple (an
-    /// angle) and of its line of action (a length) makes the components uncertain. A component
-    /// counts as zero if it is much smaller than the others of its vector within this uncertainty.
+    /// force, and the other components belong to a torque. The direction of a force or couple is
+    /// uncertain by an angle, and its line of action is uncertain by a length. Both make the
+    /// components uncertain. A component counts as zero if it is much smaller than the other
+    /// components of its vector within this uncertainty.
     #[must_use]
     pub(crate) fn with_forces(mut self, forces: usize) -> Self {
         let (Some(turns), None) = (&self.basis.known.row_turn, &self.basis.exact) else {
@@ -130,16 +135,16 @@ impl<'a> MultiplierMap<'a> {
     /// Returns the norm of row k of `W·Z_X`, relative to the largest row of W.
     fn margin(&self, k: usize) -> f64 {
         match self.largest {
-            // Zero divided by zero: a map of zeros has no reaction.
+            // Zero is divided by zero, because a map of zeros has no reaction.
             0.0 => 0.0,
             largest => norm(self.images.row(k)) * (self.sizes[k] / largest),
         }
     }
 
-    /// Returns the verdict on component `k`: unique iff row k of `W·Z_X` is zero. The margin is
-    /// relative to the largest row of W. A row of W that is only rounding relative to the others
-    /// counts as zero, unless the entries are exact. If it counts as zero only within a stated
-    /// tolerance, the verdict states this and keeps its margin.
+    /// Returns the verdict on component `k`. The component is unique iff row k of `W·Z_X` is zero.
+    /// The margin is relative to the largest row of W. A row of W that is only rounding relative to
+    /// the other rows counts as zero, unless the entries are exact. If the component counts as zero
+    /// only within a stated tolerance, the verdict states this and keeps its margin.
     ///
     /// # Errors
     /// Returns an error if the component does not exist.
@@ -162,7 +167,8 @@ impl<'a> MultiplierMap<'a> {
                 within_tolerance: margin > noise.rounding,
                 ..judged
             },
-            // The component is unique if its multipliers are; otherwise it is undecided.
+            // The component is unique if its multipliers are unique. Otherwise the component is
+            // undecided.
             ForceComponent::Undecided => {
                 let noise = self.basis.noise_of_row(map, rows, self.largest);
                 match self.basis.judge(judged.margin, noise, vanishes) {
@@ -178,11 +184,11 @@ impl<'a> MultiplierMap<'a> {
         })
     }
 
-    /// Returns whether component `k` is zero for all multipliers. If so, row k of W is so small
-    /// relative to the largest one that the component is unique for this reason alone.
+    /// Returns whether component `k` is zero for all multipliers. In this case, row k of W is so
+    /// small relative to the largest row that the component is unique for this reason alone.
     ///
     /// # Errors
-    /// Same errors as [`MultiplierMap::component`].
+    /// Returns the same errors as [`MultiplierMap::component`].
     pub(crate) fn is_zero(&self, k: usize) -> Result<bool, QueryError> {
         let judged = self.component(k)?;
         let size = self.sizes[k];
@@ -201,8 +207,9 @@ impl<'a> MultiplierMap<'a> {
         Ok(own == CoefficientReading::NonZero)
     }
 
-    /// Returns the directions in which the reaction is unique: a basis of the left null space of
-    /// `W·Z_X`. The directions are unit vectors with k entries, the largest of which is positive.
+    /// Returns the directions in which the reaction is unique. The directions are a basis of the
+    /// left null space of `W·Z_X`. The directions are unit vectors with k entries, the largest of
+    /// which is positive.
     ///
     /// # Errors
     /// Returns an error if the number of directions is undecided.
@@ -233,11 +240,11 @@ impl<'a> MultiplierMap<'a> {
     }
 
     /// Returns the largest component of the reaction, in the unit of margins, that counts as zero
-    /// within a stated tolerance so that the directions are unique. The value is zero if no
-    /// component counts as zero.
+    /// within a stated tolerance. The directions are unique because this component counts as zero.
+    /// The value is zero if no component counts as zero.
     ///
     /// # Errors
-    /// Same errors as [`MultiplierMap::unique_directions`].
+    /// Returns the same errors as [`MultiplierMap::unique_directions`].
     pub(crate) fn directions_left_out(&self) -> Result<f64, QueryError> {
         let none = self
             .within_tolerance
@@ -264,7 +271,7 @@ impl<'a> MultiplierMap<'a> {
     }
 
     /// Returns the unique directions in which a reaction is possible. The returned directions are
-    /// perpendicular to those in which the reaction is zero for all multipliers.
+    /// perpendicular to the directions in which the reaction is zero for all multipliers.
     pub(crate) fn live_directions(&self, unique: &[Vec<f64>]) -> Vec<Vec<f64>> {
         if unique.is_empty() {
             return Vec::new();
@@ -284,7 +291,7 @@ impl<'a> MultiplierMap<'a> {
         (0..live).map(|j| normalised(column(j), rounding)).collect()
     }
 
-    /// Returns the largest component of a unit vector that is rounding.
+    /// Returns the size below which a component of a unit vector is rounding.
     fn nothing(&self) -> f64 {
         self.basis.known.tolerance.min(LARGEST_ROUNDING)
     }
@@ -308,7 +315,7 @@ impl<'a> MultiplierMap<'a> {
         PivotedQr::of_columns(&idle).q_columns(0..k - rank)
     }
 
-    /// Returns the factor from components of equal size back to the units of the map.
+    /// Returns the factor that converts components of equal size to the units of the map.
     fn scale(&self, i: usize) -> f64 {
         match self.sizes[i] {
             0.0 => 1.0,

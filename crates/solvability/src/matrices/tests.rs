@@ -1,4 +1,4 @@
-//! Manually calculated verdicts, exact verdicts that rounding would leave undecided, and requests
+//! Manually calculated verdicts, exact verdicts that rounding would make undecided, and requests
 //! that are errors.
 
 use super::*;
@@ -50,7 +50,8 @@ fn exact_verdicts_have_no_smallest_number() {
         );
         assert_eq!(s.group([0, 1, 2]).unwrap().verdict, Verdict::Unique);
         assert_eq!(s.group([1]).unwrap().verdict, Verdict::NotUnique);
-        // The direction in the plane of (λ₀, λ₁) in which the self-stress (1, ε) has no component.
+        // The direction in the plane of (λ₀, λ₁) along which the component of the self-stress (1,
+        // ε) is zero.
         let directions = s.unique_directions(&Matrix::identity(2), [0, 1]).unwrap();
         assert_eq!(directions.len(), 1);
         assert!((directions[0][1] - 1.0).abs() < 1e-6, "{directions:?}");
@@ -75,8 +76,8 @@ fn rounded_verdicts_are_undecided_near_zero() {
     assert_eq!(verdict(1e-8), Verdict::NotUnique);
 }
 
-/// A residual of 1e-6 makes coefficients uncertain by 1e-4: no reaction counts as unique with such
-/// evidence.
+/// A residual of 1e-6 makes coefficients uncertain by 1e-4. With such evidence, no reaction counts
+/// as unique.
 #[test]
 fn poor_evidence_calls_nothing_unique() {
     let s = Solvability::of(&bar(0.0), rank::Accuracy::Absolute(1e-6)).unwrap();
@@ -152,7 +153,7 @@ fn questions_that_cannot_be_answered_are_named() {
 fn empty_matrices() {
     for (m, n) in [(0, 0), (0, 3), (3, 0), (2, 2)] {
         let s = Solvability::of_exact(&Matrix::zeros(m, n)).unwrap();
-        // A row of zeros: its multiplier is arbitrary, its reaction is zero.
+        // For a row of zeros, the multiplier is arbitrary and the reaction is zero.
         for i in 0..m {
             assert_eq!(s.row(i).unwrap().verdict, Verdict::NotUnique);
             assert_eq!(s.group([i]).unwrap().verdict, Verdict::Unique);
@@ -160,11 +161,11 @@ fn empty_matrices() {
     }
 }
 
-/// A knife edge in the plane has one multiplier and two components. Along the edge the force is
-/// always zero, which is not reported as a unique direction.
+/// A knife edge in the plane has one multiplier and two components. The force along the edge is
+/// always zero. It is not reported as a unique direction.
 #[test]
 fn directions_without_a_reaction_are_left_out() {
-    // Rows 0 and 1 are the same, row 2 is independent.
+    // Rows 0 and 1 are the same, and row 2 is independent.
     let c = Matrix::from_rows(&[[1.0, 0.0], [1.0, 0.0], [0.0, 1.0]]);
     for s in [
         Solvability::of(&c, rank::Accuracy::Rounding),
@@ -186,7 +187,8 @@ fn directions_without_a_reaction_are_left_out() {
                 "{found:?}"
             );
         }
-        // A unique multiplier adds a live direction; the last component is zero and adds none.
+        // A unique multiplier adds a nonzero direction. The last component is zero and does not add
+        // a direction.
         let map = Matrix::from_rows(&[[0.6, 0.0], [0.8, 0.0], [0.0, 1e-6], [0.0, 0.0]]);
         let (number, found) = live(&map, &[0, 2]);
         assert_eq!(number, 3);
@@ -198,8 +200,8 @@ fn directions_without_a_reaction_are_left_out() {
 }
 
 /// Rows 0 and 1 are the same, and a force of row 2 has the direction (1, ε). The accuracy of the
-/// data is so low that coefficients of 1e-3 may be rounding, but not the component ε of a
-/// direction.
+/// data is so low that coefficients of 1e-3 may be rounding errors. The component ε of a direction
+/// is not a rounding error.
 #[test]
 fn a_part_of_a_direction_is_told_however_uncertain_coefficients_are() {
     let c = Matrix::from_rows(&[[1.0, 0.0], [1.0, 0.0], [0.0, 1.0]]);

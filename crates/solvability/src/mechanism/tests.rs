@@ -1,5 +1,5 @@
-//! Every joint with a non-unique reaction has a component that shows this, for any definition of
-//! the joint.
+//! For any definition of a joint, each non-unique reaction of the joint has a component that is not
+//! unique.
 
 use joints::spec::{Shape, Spec};
 use joints::{Argument, Plane, Space3, space3};
@@ -65,7 +65,7 @@ fn arguments(
     let mut points = 0.0;
     let one = |parameter: &joints::spec::Parameter| match parameter.shape {
         Shape::Point { slot } => {
-            // Points that must be separate have a distance along and across the axis.
+            // Points that must be separate have a distance along the axis and across the axis.
             points += f64::from(u8::from(spec.points_apart));
             let there = |k: usize| at[k] + 0.3 * points * (axis[k] + across[k]);
             vector(local(bodies[slot], std::array::from_fn(there)))
@@ -87,7 +87,7 @@ fn arguments(
     spec.parameters.iter().map(one).collect()
 }
 
-/// A space together with a mechanism for this test.
+/// A space, and a mechanism in this space for this test.
 trait Loops: BodySpace {
     const IS_PLANE: bool;
 
@@ -157,7 +157,8 @@ impl Loops for Space3 {
     }
 }
 
-/// Selects different bodies for the slots of a definition; a single body is not the ground.
+/// Selects different bodies for the slots of a definition. If there is only one slot, its body is
+/// not the ground.
 fn pick(draw: &mut Draw, slots: usize) -> Vec<BodyRef> {
     let mut all = vec![
         BodyRef::Body(0),
@@ -180,9 +181,9 @@ fn is_silent(r: &ReactionVerdict) -> bool {
         && components.all(|c| c.judgement.verdict == Verdict::Unique)
 }
 
-/// Builds mechanisms with each kind twice at one point, with another kind, and with couplings of
-/// all joint coordinates of both points in a row. Returns the number of non-unique reactions of
-/// each kind.
+/// Builds mechanisms with two joints of each kind at one point, a joint of another kind, and
+/// couplings. A row of couplings couples all joint coordinates of both points. Returns the number
+/// of non-unique reactions of each kind.
 fn not_unique<S: Loops>(draw: &mut Draw, kind: &str, other: &str) -> Vec<(&'static str, usize)> {
     let registry = Registry::standard();
     let mut d = S::start(draw);
@@ -281,9 +282,9 @@ fn what_is_not_unique_has_a_component_that_is_not_in_space() {
     all_kinds::<Space3>();
 }
 
-/// A swing of two arms whose seat does not rotate, because of two couplings and of the
+/// A swing of two arms. Its seat does not rotate, because of two couplings and because of the
 /// parallelogram. The coupling of the seat loads the seat and the ground, but not the arm between
-/// them.
+/// the seat and the ground.
 #[test]
 fn a_coupling_in_a_loop_has_its_own_load() {
     let mut d = Description::new("swing");

@@ -32,8 +32,8 @@ fn asked(d: &SpatialDescription, ask: impl FnOnce(&Configuration<'_>)) {
 }
 
 /// A body that is welded to the ground twice over one bar. The free wrench is a tension along the
-/// bar, from (1, 1, 0) to (1, 3, 0), so that moments are unique about the points of the line x = 1,
-/// z = 0.
+/// bar, from (1, 1, 0) to (1, 3, 0). Therefore moments are unique about the points of the line x =
+/// 1, z = 0.
 #[test]
 fn points_of_a_line_are_the_nearest() {
     let mut d = SpatialDescription::new("bar");
@@ -69,8 +69,8 @@ fn points_of_a_line_are_the_nearest() {
     });
 }
 
-/// Two coaxial hinges carry a door. In addition to two couples, the force along the axis is free,
-/// so that no point has a unique moment.
+/// Two coaxial hinges carry a door. The force along the axis is free, and two couples are free.
+/// Therefore there is no point about which the moment is unique.
 #[test]
 fn a_couple_has_no_centre() {
     let mut d = SpatialDescription::new("door");

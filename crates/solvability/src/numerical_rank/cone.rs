@@ -1,12 +1,14 @@
 //! Computes the smallest change of the data that satisfies linear equations. The size of a change
-//! is that of the point, direction or number that changes most, relative to its uncertainty.
+//! is the change of one point, direction or number, relative to its uncertainty. The point,
+//! direction or number that changes most counts.
 //!
-//! Lawson's iteration solves `s* = min max_P |x_P|` under `target + Σ_P a_P·x_P = 0`. It uses least
-//! squares with weights that grow where the change is largest. Each iteration gives a lower bound,
-//! the weighted mean of the relative changes, and an upper bound, the largest of them.
+//! Lawson's iteration solves `s* = min max_P |x_P|` under `target + Σ_P a_P·x_P = 0`. The iteration
+//! uses least squares with weights that grow for the largest changes. Each iteration gives a lower
+//! bound and an upper bound. The lower bound is the weighted mean of the relative changes, and the
+//! upper bound is the largest relative change.
 //!
 //! Source: C. L. Lawson, Contributions to the theory of linear least maximum approximation, thesis,
-//! UCLA (1961); all components of a vector have the same weight.
+//! UCLA (1961). Here all components of a vector have the same weight.
 
 use crate::limits::{CONE_CLOSE, CONE_ITERATIONS, CONE_RESOLVED, LEAST_WEIGHT};
 use linalg::Lu;
@@ -16,8 +18,8 @@ use linalg::Lu;
 pub(super) struct Equation {
     /// The value that must be zero.
     pub(super) target: f64,
-    /// Rounding error of the target and of the coefficients: an additional unknown of this
-    /// equation, with a relative size of at most one.
+    /// Rounding error of the target and of the coefficients. The rounding error is an additional
+    /// unknown of this equation, whose relative size is at most one.
     pub(super) rounding: f64,
     /// Coefficients of each point, direction or number.
     pub(super) parts: Vec<[f64; 3]>,
@@ -45,8 +47,8 @@ impl Bounds {
     }
 }
 
-/// Returns bounds of `s*`. The two bounds are close together unless the iteration stalls. Equations
-/// that no change of data can satisfy give a large value.
+/// Returns bounds of `s*`. The two bounds are close to each other unless the iteration stalls. The
+/// bounds are large if no change of data satisfies the equations.
 pub(super) fn least_change(equations: &[Equation]) -> Bounds {
     let e = equations.len();
     let blocks = equations.first().map_or(0, |first| first.parts.len());
@@ -150,8 +152,8 @@ mod tests {
         );
     }
 
-    /// The previous equations with two hundred additional numbers that need no change: they do not
-    /// lower the bounds.
+    /// The equations of the previous test with two hundred additional numbers that need no change.
+    /// These numbers do not lower the bounds.
     #[test]
     fn numbers_that_need_no_change_stay_out_of_the_bounds() {
         let mut parts = vec![[1.0, 0.0, 0.0], [2.0, 0.0, 0.0], [0.0, 3.0, 0.0]];
@@ -163,8 +165,8 @@ mod tests {
 
     #[test]
     fn a_point_has_one_change_in_both_directions() {
-        // For x = 3 and y = 4, the change is 5 if they belong to one point, and 4 if they are two
-        // numbers.
+        // For x = 3 and y = 4, the change is 5 if x and y belong to one point, and 4 if they are
+        // two numbers.
         let (x, y) = ([[1.0, 0.0, 0.0]], [[0.0, 1.0, 0.0]]);
         is_near(least_change(&[equation(3.0, &x), equation(4.0, &y)]), 5.0);
         let (x, y) = ([[1.0, 0.0, 0.0], [0.0; 3]], [[0.0; 3], [1.0, 0.0, 0.0]]);

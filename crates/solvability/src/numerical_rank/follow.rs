@@ -1,14 +1,14 @@
-//! Computes how positions and velocities change with the data while some rows stay satisfied, and
-//! how these changes add up along a continuation path.
+//! Computes how positions and velocities change with the data while some rows stay satisfied. Also
+//! computes how these changes accumulate along a continuation path.
 //!
-//! If rows `C_K·x = y` stay satisfied, x follows y by `C_K⁺·y`. A gradient g with respect to x has
-//! two parts: `λ = C_K⁺ᵀ·g` with respect to y, and `g − C_Kᵀ·λ` along the motions that the rows
-//! leave free.
+//! If the rows `C_K·x = y` stay satisfied, x changes by `C_K⁺·y` with y. A gradient g with respect
+//! to x has two parts: `λ = C_K⁺ᵀ·g` with respect to y, and `g − C_Kᵀ·λ` along the motions that the
+//! rows leave free.
 //!
 //! A configuration at the end of a continuation depends on the data along the whole path. Each step
-//! follows a velocity v that the kept rows allow, `C_K·v = 0`. This velocity changes by
-//! `δv = −C_K⁺·δ(C_K·v)`, so that `δq⁺ = δq + δv`, with `Φ_K(q⁺) = 0`. Nonholonomic rows constrain
-//! only velocities, so changes along the path add up and are never corrected. A gradient with
+//! follows a velocity v that the kept rows allow, `C_K·v = 0`. This velocity changes by `δv =
+//! −C_K⁺·δ(C_K·v)`, so that `δq⁺ = δq + δv`, with `Φ_K(q⁺) = 0`. Nonholonomic rows constrain only
+//! velocities. Therefore changes along the path accumulate and are never corrected. A gradient with
 //! respect to the last configuration is propagated backwards to the data and to the first
 //! configuration.
 
@@ -17,7 +17,7 @@ use crate::pose::dimensionless;
 use linalg::{Matrix, PivotedQr};
 use model::{Mechanism, Scratch, System};
 
-/// Independent rows that stay satisfied, scaled.
+/// Scaled independent rows that stay satisfied.
 pub(super) struct FollowedRows {
     /// Rows of the mechanism, each with the factor to its scaled form.
     rows: Vec<(usize, f64)>,
@@ -34,8 +34,8 @@ impl FollowedRows {
 
     /// Splits the derivatives of a function with respect to the coordinates into two parts
     /// (physical units). The first part contains the derivatives with respect to the values of the
-    /// rows, one for each of the `rows` rows of the mechanism. The second part is the derivative
-    /// along the motions that the rows leave free.
+    /// rows, one value for each of the `rows` rows of the mechanism. The second part is the
+    /// derivative along the motions that the rows leave free.
     pub(super) fn split(&self, gradient: &[f64], rows: usize) -> (Vec<f64>, Vec<f64>) {
         let mut answer: Vec<f64> = gradient
             .iter()
@@ -70,7 +70,7 @@ impl FollowedRows {
         x.iter().zip(&self.columns).map(|(x, f)| x * f).collect()
     }
 
-    /// Returns a matrix with the singular values of `C_K⁺·A`, both scaled.
+    /// Returns a matrix with the singular values of `C_K⁺·A`. Both factors are scaled.
     pub(super) fn through(&self, a: &Matrix) -> Matrix {
         let mut columns = a.select_rows(self.qr.permutation()).transpose();
         for j in 0..columns.nrows() {
@@ -91,7 +91,7 @@ impl FollowedRows {
 
 /// One step of a continuation on nonholonomic rows.
 pub(super) struct Step {
-    /// Scratch at the start of the step and at its middle.
+    /// Scratches at the start of the step and in the middle of the step.
     first: Scratch,
     middle: Scratch,
     /// Displacement (physical units).
@@ -101,7 +101,7 @@ pub(super) struct Step {
     velocities: FollowedRows,
 }
 
-/// Numbers of substeps, tried one after the other until two results agree.
+/// Numbers of substeps. The numbers are tried one after the other until two results agree.
 const SUBSTEPS: [usize; 4] = [2, 4, 6, 8];
 
 /// The mechanism and the kept rows of a continuation.
@@ -137,16 +137,16 @@ impl Ground<'_> {
         self.kept.iter().copied().filter(|&i| i < m).collect()
     }
 
-    /// Returns whether nonholonomic rows are kept, so that positions depend on the path.
+    /// Returns whether nonholonomic rows are kept. In this case, positions depend on the path.
     pub(super) fn is_led(&self) -> bool {
         self.kept.iter().any(|&i| i >= self.mechanism.layout().m)
     }
 
-    /// Returns the configuration after a motion whose velocities all kept rows allow. At each point
-    /// the motion uses the allowed velocity closest to `moved`. Returns `None` if the velocities
-    /// change too fast for the continuation.
+    /// Returns the configuration after a motion whose velocities satisfy all kept rows. At each
+    /// point of the motion, the velocity is the allowed velocity closest to `moved`. Returns `None`
+    /// if the velocities change too fast for the continuation.
     ///
-    /// Source: the modified midpoint rule, extrapolated; E. Hairer, S. P. Nørsett, G. Wanner,
+    /// Source: the modified midpoint rule with extrapolation; E. Hairer, S. P. Nørsett, G. Wanner,
     /// Solving Ordinary Differential Equations I, section II.9 (1993).
     pub(super) fn flow(&self, q: &[f64], moved: Vec<f64>) -> Option<(Vec<f64>, Step)> {
         let velocity = |d: &[f64]| {
@@ -157,7 +157,7 @@ impl Ground<'_> {
             d.iter().zip(v).map(|(d, v)| d + h * v).collect()
         };
         let start = vec![0.0; moved.len()];
-        // One row of the Aitken-Neville scheme, in the square of the substep.
+        // One row of the Aitken-Neville scheme in the square of the substep.
         let mut row: Vec<Vec<f64>> = Vec::new();
         for (j, n) in SUBSTEPS.into_iter().enumerate() {
             let h = 1.0 / n as f64;
@@ -207,9 +207,9 @@ impl Ground<'_> {
 
 impl Step {
     /// Propagates a gradient backwards over the step. The given gradient is with respect to the
-    /// configuration after the step, along the free motions there. The result is the gradient with
-    /// respect to the configuration before the step. The effect of the data on the step is added to
-    /// `data`.
+    /// configuration after the step, along the free motions at this configuration. The result is
+    /// the gradient with respect to the configuration before the step. The effect of the data on
+    /// the step is added to `data`.
     pub(super) fn carry_back(&self, mechanism: &Mechanism, pose: &mut Vec<f64>, data: &mut [f64]) {
         let rows = mechanism.layout().rows();
         let (lambda, _) = self.velocities.split(pose, rows);

@@ -1,9 +1,10 @@
 //! Constraint matrix C of the intended mechanism. A force or lever arm that is smaller than its
 //! uncertainty counts as zero.
 //!
-//! Forces and levers are compared as vectors, never by their components, which depend on the axes.
-//! A vector is the block of the force rows or of the moment rows of a joint, in the columns of the
-//! translation or of the rotation of one body. Each vector has one scale.
+//! Forces and levers are compared as vectors. The components of these vectors are never compared,
+//! because they depend on the axes. A vector is the block of the force rows or of the moment rows
+//! of a joint, in the columns of the translation or of the rotation of one body. Each vector has
+//! one scale.
 
 use crate::pose::dimensionless;
 use std::ops::Range;
@@ -14,7 +15,7 @@ use model::{ConfigurationAccuracy, Mechanism, Scratch, SpaceKind, System};
 /// Dimensionless C, with the uncertainty of its entries.
 #[derive(Clone, Debug)]
 pub(crate) struct UncertainMatrix {
-    /// Matrix of size (m + h) × n_v; forces and levers that count as zero are set to zero.
+    /// Matrix of size (m + h) × n_v. Forces and levers that count as zero are set to zero.
     pub(crate) c: Matrix,
     /// Uncertainty of the entries; zero for entries that were set to zero.
     pub(crate) uncertainty: Matrix,
@@ -25,8 +26,8 @@ pub(crate) struct UncertainMatrix {
 }
 
 impl UncertainMatrix {
-    /// Evaluates C at the configuration of the scratch, in which Φ and C have been evaluated, for a
-    /// mechanism of this size.
+    /// Evaluates C at the configuration of the scratch, for a mechanism of this size. Φ and C must
+    /// have been evaluated in the scratch.
     pub(crate) fn new(
         mechanism: &Mechanism,
         s: &Scratch,
@@ -63,8 +64,8 @@ impl UncertainMatrix {
         uncertain
     }
 
-    /// Sets the forces and levers of these rows, which belong to one block, to zero if they are
-    /// within their uncertainty.
+    /// Sets the forces and levers of these rows to zero if they are within their uncertainty. The
+    /// rows belong to one block.
     fn clear(&mut self, rows: Range<usize>) {
         let n = self.c.ncols();
         let mut first = 0;
@@ -96,10 +97,11 @@ impl UncertainMatrix {
         }
     }
 
-    /// Returns a scaling with one factor for the translation of each body, one for its rotation,
-    /// one for the force rows of each joint, and one for its moment rows. A lever determines the
-    /// scale of its body only if it is far larger than its uncertainty. Otherwise the rounding of
-    /// larger terms could be scaled up to norm one. The rank does not depend on scales.
+    /// Returns a scaling with one factor for the translation of each body, one for the rotation of
+    /// each body, one for the force rows of each joint, and one for the moment rows of each joint.
+    /// A lever determines the scale of its body only if the lever is far larger than its
+    /// uncertainty. Otherwise the rounding of larger terms could be scaled up to norm one. The rank
+    /// does not depend on scales.
     pub(crate) fn scaling(&self) -> Scaling {
         let significant = |i: usize, j: usize| match self.c[(i, j)] {
             c if c.abs() > rank::SIGNIFICANT * self.uncertainty[(i, j)] => c,
@@ -109,8 +111,8 @@ impl UncertainMatrix {
         equilibrate_blocks(&c, &self.row_blocks, &self.col_blocks)
     }
 
-    /// Returns the same matrix in double-double, given all its entries. Entries that are zero here
-    /// are set to zero there.
+    /// Returns the same matrix in double-double. `c` contains all entries in double-double. Entries
+    /// that are zero in this matrix are set to zero in the result.
     pub(crate) fn extended(&self, mut c: DdMatrix) -> DdMatrix {
         for &(i, j) in &self.zeros {
             c[(i, j)] = linalg::Dd::ZERO;
@@ -136,13 +138,14 @@ impl UncertainMatrix {
     }
 }
 
-/// Returns the block of each column: translation or rotation of its body.
+/// Returns the block of each column, which is the translation or the rotation of a body.
 fn col_block(space: SpaceKind, j: usize) -> usize {
     2 * space.body_of(j) + usize::from(space.is_rotation(j))
 }
 
-/// Returns the block of each row: the force rows or the moment rows of its joint, on one level. The
-/// rows of a block are adjacent; rows of the same kind that are not adjacent form different blocks.
+/// Returns the block of each row, which is the force rows or the moment rows of a joint on one
+/// level. The rows of a block are adjacent. Rows of the same kind that are not adjacent form
+/// different blocks.
 fn row_blocks(mechanism: &Mechanism) -> Vec<usize> {
     let layout = mechanism.layout();
     let kind = |row: usize| (layout.owners[row], row < layout.m, layout.is_angular(row));

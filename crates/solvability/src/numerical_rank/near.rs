@@ -1,11 +1,11 @@
 //! Computes the smallest error of the data (m) for a lower rank, at one configuration and at all
-//! configurations of a continuation. It also computes the lowest rank of data within a stated
-//! tolerance.
+//! configurations of a continuation. The module also computes the lowest rank of data within a
+//! stated tolerance.
 //!
-//! Rows that nearly depend on others at a configuration are dropped together, so that the mechanism
-//! moves away from it on rows that are certainly independent. At the configurations that it
-//! reaches, the dropped rows that are independent in general are determined. These rows are kept
-//! again, one rank after the other.
+//! Rows that nearly depend on other rows at a configuration are dropped together. Therefore the
+//! mechanism moves away from this configuration on rows that are certainly independent. At the
+//! configurations that the mechanism reaches, the module determines which dropped rows are
+//! independent in general. These rows are kept again, one rank after the other.
 
 use crate::limits::{CLEAR_ENTRY, CURVED, PAIRS, WALKED};
 use linalg::{Matrix, Scaling};
@@ -17,18 +17,18 @@ use super::pose::{Candidate, Gradient, Pose, most_independent_of};
 use super::share::{Question, StatedTolerance, equation, pairs, rounding};
 use super::walk::{Walk, walk};
 
-/// The smallest error of the data for a rank that is lower by one (m; angles are multiplied by the
-/// size).
+/// The smallest error of the data for a rank that is lower by one (m). Angles are multiplied by the
+/// size of the mechanism.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Nearness {
     /// Error in the data for a lower rank at this configuration alone.
     pub(crate) here: f64,
-    /// Error for one change of the data at all configurations of a continuation: from this change
+    /// Error for one change of the data at all configurations of a continuation. From this change
     /// upwards, a row is redundant. The change is infinite if no change makes a row redundant.
     pub(crate) everywhere: f64,
-    /// A lower bound of this error if nonholonomic rows are kept. Such rows constrain no position,
-    /// so other configurations are reached from a start with the uncertainty of the data. Otherwise
-    /// it equals [`everywhere`](Self::everywhere).
+    /// A lower bound of this error if nonholonomic rows are kept. Such rows do not constrain
+    /// positions. Therefore other configurations are reached from a start with the uncertainty of
+    /// the data. Without nonholonomic rows, the value equals [`everywhere`](Self::everywhere).
     pub(crate) at_least: f64,
     /// Whether the continuation found enough configurations to distinguish a redundancy from a
     /// singular configuration.
@@ -40,7 +40,8 @@ pub(crate) struct Nearness {
 /// The lowest rank of data within a tolerance.
 pub(super) struct LeastRank {
     pub(super) rank: usize,
-    /// Distance of the data from this rank, or from one rank less if the rank does not drop.
+    /// Distance of the data from this rank. If the rank does not drop, it is the distance from one
+    /// rank less.
     pub(super) nearness: Option<Nearness>,
     pub(super) certainty: Certainty,
 }
@@ -50,10 +51,10 @@ pub(super) struct LeastRank {
 pub(super) enum Certainty {
     /// The rank is decided.
     Decided,
-    /// Undecided: the rank is one less for changes above this length (m), which is close to the
+    /// Undecided. The rank is one less for changes above this length (m), which is close to the
     /// tolerance.
     From(f64),
-    /// Undecided: other configurations could not be examined.
+    /// Undecided, because other configurations could not be examined.
     OtherPoses,
 }
 
@@ -61,7 +62,7 @@ pub(super) enum Certainty {
 struct Lower<'q> {
     question: &'q Question<'q>,
     blocks: Vec<DataBlock>,
-    /// C with one unit for all lengths, with its factors.
+    /// C with one unit for all lengths, and its factors.
     scaled: Matrix,
     scaling: Scaling,
     dimensions: Scaling,
@@ -76,15 +77,15 @@ struct Lower<'q> {
 }
 
 impl Question<'_> {
-    /// Returns the distance of the data from one rank less than `rank`, if it is at most `limit`
-    /// (m).
+    /// Returns the distance (m) of the data from a rank that is one less than `rank`, if the
+    /// distance is at most `limit`.
     pub(super) fn nearness(&self, rank: usize, limit: f64) -> Option<Nearness> {
         let lower = self.lower(rank.checked_sub(1)?, limit)?;
         Some(lower.near(&lower.walked(), &lower.kept))
     }
 
-    /// Returns the lowest rank up to `rank` of data within the tolerance, and their distance from
-    /// it if that is at most `limit` (m).
+    /// Returns the lowest rank, at most `rank`, of data within the tolerance. Also returns the
+    /// distance of the data from this rank if the distance is at most `limit` (m).
     pub(super) fn least_rank(
         &self,
         rank: usize,
@@ -117,8 +118,8 @@ impl Question<'_> {
             } else {
                 asked.near(&asked.walked(), &asked.kept)
             };
-            // Rows that are kept again may be singular at this configuration, so that no motion is
-            // possible.
+            // Rows that are kept again may be singular at this configuration. In this case no
+            // motion is possible.
             let is_unknown = !own.is_walked && share(own.everywhere) <= rank::BEYOND_DOUBT;
             let near = if is_unknown && lower > first {
                 asked.near(&away, &lowest.kept)
@@ -148,8 +149,8 @@ impl Question<'_> {
         stays(last)
     }
 
-    /// Returns the dropped rows, beginning with the rows that are most independent of the kept rows
-    /// at the last configuration of the continuation.
+    /// Returns the dropped rows. The rows that are most independent of the kept rows at the last
+    /// configuration of the continuation come first.
     fn most_independent(&self, lowest: &Lower<'_>, away: &Walk) -> Vec<usize> {
         let scaled = match away.farthest() {
             None => lowest.scaled.clone(),
@@ -161,9 +162,8 @@ impl Question<'_> {
         most_independent_of(&scaled, &lowest.kept)
     }
 
-    /// Examines the rank `lower`, with the rows kept that are most independent at this
-    /// configuration. Returns `None` if the data must change by more than `limit` (m) to give this
-    /// rank.
+    /// Examines the rank `lower`. The rows that are most independent at this configuration are
+    /// kept. Returns `None` if this rank requires a change of the data by more than `limit` (m).
     fn lower(&self, lower: usize, limit: f64) -> Option<Lower<'_>> {
         let (scaled, scaling) = self.uniform(self.s);
         let candidate = Candidate::of_rank(&scaled, lower);
@@ -206,8 +206,8 @@ impl Question<'_> {
         if least.is_nan() || least > limit {
             return None;
         }
-        // The unit is relative to the change that a single entry needs, so that rounding does not
-        // interfere.
+        // The unit is relative to the change that a single entry needs, so that rounding has no
+        // effect.
         let least = least.max(self.size * f64::EPSILON);
         let mut lower = Lower {
             question: self,
@@ -234,12 +234,12 @@ impl Lower<'_> {
         kept.iter().map(|&k| self.question.places[k]).collect()
     }
 
-    /// Returns the continuation on the rows that would be kept.
+    /// Returns the continuation on those rows that would be kept.
     fn walked(&self) -> Walk {
         walk(self.question, &self.rows(&self.kept))
     }
 
-    /// Returns the distance of the data, at configurations where the rows `held` are satisfied.
+    /// Returns the distance of the data at configurations that satisfy the rows `held`.
     fn near(&self, walked: &Walk, held: &[usize]) -> Nearness {
         let m = self.question.mechanism.layout().m;
         let is_led = self.rows(held).iter().any(|&row| row >= m);
@@ -268,8 +268,8 @@ impl Lower<'_> {
         let mut certain = reach;
         if let Some(stated) = self.question.tolerance() {
             // A full rank requires configurations that the intended mechanism has for all data
-            // within the tolerance. A redundancy requires configurations that it has up to the
-            // change of the data that makes a row redundant.
+            // within the tolerance. A redundancy requires configurations that the intended
+            // mechanism has up to the change of the data that makes a row redundant.
             let is_full = |length: f64| length > rank::BEYOND_DOUBT * stated.metres;
             if is_full(everywhere) && (known == reach || is_full(change(known))) {
                 certain = known;
@@ -296,11 +296,11 @@ impl Lower<'_> {
         }
     }
 
-    /// Returns the equations that must be satisfied at the configuration of the scratch, which is
-    /// reached by a path on the rows `held`.
+    /// Returns the equations that must be satisfied at the configuration of the scratch. A path on
+    /// the rows `held` leads to this configuration.
     fn at(&self, s: &Scratch, held: &[usize], way: &[&Step]) -> Vec<PoseEquation> {
         let question = self.question;
-        // All equations use the scaling of the first configuration, so that they have the same
+        // All equations use the scaling of the first configuration. Therefore they have the same
         // unit.
         let scaled = self.scaling.apply(&question.dimensionless(s));
         let candidate = Candidate::of_rows(&scaled, self.kept.clone());
@@ -316,8 +316,9 @@ impl Lower<'_> {
         let is_first = std::ptr::eq(s, question.s);
         let noise = if is_first { rounding(&scaled) } else { WALKED };
         let mut asked = self.asked(&pose, way, noise);
-        // Rows that are kept but not in `held` may be violated at other configurations. There, only
-        // the rank is examined. It is not larger where these rows are satisfied.
+        // Rows that are kept but not in `held` may be violated at other configurations. At these
+        // configurations, only the rank is examined. The rank is not larger if these rows are
+        // satisfied.
         if is_first || held == self.kept {
             asked.extend(self.misfits(&pose, noise));
         }
@@ -325,7 +326,7 @@ impl Lower<'_> {
     }
 
     /// Returns the equations for the entries. With nonholonomic rows, the configuration depends on
-    /// the data along the path and on the start, which has the uncertainty of the data.
+    /// the data along the path and on the start. The start has the uncertainty of the data.
     fn asked(&self, pose: &Pose<'_>, way: &[&Step], noise: f64) -> Vec<PoseEquation> {
         let question = self.question;
         let (blocks, known) = (&self.blocks[..], &self.known[..]);
@@ -344,8 +345,8 @@ impl Lower<'_> {
         pairs(pose).map(of_pair).collect()
     }
 
-    /// Returns the equations for residuals: rows that depend on each other must also be consistent.
-    /// Equations of lengths are divided by the size.
+    /// Returns the equations for residuals, because rows that depend on each other must also be
+    /// consistent. Equations of lengths are divided by the size.
     fn misfits(&self, pose: &Pose<'_>, noise: f64) -> Vec<PoseEquation> {
         let question = self.question;
         let (blocks, known) = (&self.blocks[..], &self.known[..]);
@@ -363,8 +364,8 @@ impl Lower<'_> {
             .collect()
     }
 
-    /// Returns the fraction of `least` by which the data have to change, if second-order terms of
-    /// changes up to `share` of it are unknown.
+    /// Returns the necessary change of the data as a fraction of `least`. Second-order terms of
+    /// changes up to `share` times `least` are unknown.
     fn change(&self, poses: &[&[PoseEquation]], share: f64, start: Start) -> f64 {
         let curved = CURVED * (self.least / self.question.size).powi(2) * share.min(1.0);
         let equations = poses.iter().copied().flatten();
@@ -391,7 +392,7 @@ struct PoseEquation {
 }
 
 impl PoseEquation {
-    /// Returns the equation with unknown second-order terms of a change.
+    /// Returns the equation with an unknown that represents the second-order terms of a change.
     fn loose(&self, curved: f64, start: Start) -> Equation {
         let mut equation = self.equation.clone();
         equation.rounding = equation.rounding.max(curved * self.unit);

@@ -1,13 +1,13 @@
 //! Computes how close C is to a lower rank at one configuration of a mechanism, and how this
-//! depends on the data.
+//! distance depends on the data.
 //!
 //! With r' kept rows K, the rank is r' iff `S = C_D·V` vanishes, where V is the null space of C_K.
 //! With `U = [−Tᵀ; I]` and `T = C_D·C_K⁺`, S equals `Uᵀ·C·V` and changes with the data to first
-//! order by `Uᵀ·δC·V`. δC has two parts: the change of points and directions at a fixed
-//! configuration, and the change of the configuration. The configuration follows the data so that
-//! the kept rows of Φ stay satisfied: `δq = −C_K⁺·(Φ_K + ∂Φ_K/∂d·δd)`, with no component along the
-//! free motions. Φ_K is not zero if rows contradict each other within a tolerance and the start
-//! distributes the residual among them.
+//! order by `Uᵀ·δC·V`. δC has two parts: the change due to points and directions at a fixed
+//! configuration, and the change due to the configuration. The configuration changes with the data
+//! so that the kept rows of Φ stay satisfied: `δq = −C_K⁺·(Φ_K + ∂Φ_K/∂d·δd)`, with no component
+//! along the free motions. Φ_K is not zero if rows contradict each other within a tolerance and the
+//! residual of the start is distributed among them.
 
 use crate::limits::{HOLONOMIC, RESOLVED};
 use linalg::{Matrix, PivotedQr, RowBasis, Scaling, kernels, small_svd};
@@ -15,7 +15,7 @@ use model::{DataSlopes, ForceDerivatives, Mechanism, Scratch, System};
 
 use super::follow::FollowedRows;
 
-/// A configuration, with the rows and columns kept for a lower rank.
+/// A configuration, and the rows and columns that are kept for a lower rank.
 pub(super) struct Pose<'a> {
     mechanism: &'a Mechanism,
     s: &'a Scratch,
@@ -28,14 +28,14 @@ pub(super) struct Pose<'a> {
     rows: Vec<f64>,
     /// The kept holonomic rows.
     positions: FollowedRows,
-    /// The values that must vanish for the lower rank, `Uᵀ·C·V = diag(σ)`: left vectors as rows
-    /// (scaled), right vectors as rows (scaled), and σ.
+    /// The values that must vanish for the lower rank, `Uᵀ·C·V = diag(σ)`. The fields are the left
+    /// vectors as rows (scaled), the right vectors as rows (scaled), and σ.
     pub(super) left: Matrix,
     pub(super) right: Matrix,
     pub(super) sigma: Vec<f64>,
 }
 
-/// Rows and columns of a scaled C that are kept for a rank, and the remaining ones.
+/// Rows and columns of a scaled C that are kept for a rank, and the remaining rows and columns.
 pub(super) struct Candidate {
     /// The r' kept rows.
     pub(super) kept: Vec<usize>,
@@ -47,8 +47,8 @@ pub(super) struct Candidate {
 }
 
 impl Candidate {
-    /// Returns the motions that the kept rows leave free, one in each row. The motion that the
-    /// other rows constrain most comes first.
+    /// Returns the motions that the kept rows leave free, one motion in each row. The motion that
+    /// the other rows constrain most comes first.
     pub(super) fn into_free(self) -> Matrix {
         self.right
     }
@@ -58,7 +58,7 @@ impl Candidate {
         self.sigma.first().copied().unwrap_or(0.0)
     }
 
-    /// Keeps the most independent rows; their number is the rank.
+    /// Keeps the most independent rows. The number of these rows is the rank.
     pub(super) fn of_rank(scaled: &Matrix, rank: usize) -> Self {
         Self::of(RowBasis::most_independent(scaled.clone(), rank))
     }
@@ -101,7 +101,8 @@ impl Candidate {
     }
 }
 
-/// Returns the other rows of a scaled C, the rows that are most independent of the kept rows first.
+/// Returns the other rows of a scaled C. The rows that are most independent of the kept rows come
+/// first.
 pub(super) fn most_independent_of(scaled: &Matrix, kept: &[usize]) -> Vec<usize> {
     let own = RowBasis::of_rows(scaled, kept.to_vec());
     let others = own.dropped();
@@ -145,7 +146,7 @@ pub(super) struct Gradient {
     /// Derivatives with respect to the coordinates, along the motions that the kept rows leave free
     /// (physical units), n_v values.
     pub(super) pose: Vec<f64>,
-    /// Change of the entry if the configuration moves onto the kept rows and the data are fixed.
+    /// Change of the entry if the data are fixed and the configuration is moved onto the kept rows.
     pub(super) onto_kept: f64,
 }
 
@@ -169,9 +170,9 @@ impl Gradient {
 }
 
 impl<'a> Pose<'a> {
-    /// Evaluates the configuration of the scratch, in which C has been evaluated. `scaled` contains
-    /// the rows `places` of C, scaled by `dimensions` and then by `scaling`. Positions follow the
-    /// data on the kept rows.
+    /// Evaluates the configuration of the scratch, in which C must have been evaluated. `scaled`
+    /// contains the rows `places` of C, scaled by `dimensions` and then by `scaling`. Positions
+    /// change with the data so that the kept rows stay satisfied.
     pub(super) fn new(
         mechanism: &'a Mechanism,
         s: &'a Scratch,
@@ -183,7 +184,7 @@ impl<'a> Pose<'a> {
         Self::held(mechanism, s, places, matrices, candidate, &held)
     }
 
-    /// Works like [`Self::new`], with positions that follow the data on other independent rows.
+    /// Works like [`Self::new`], but other independent rows stay satisfied.
     pub(super) fn held(
         mechanism: &'a Mechanism,
         s: &'a Scratch,
@@ -235,9 +236,9 @@ impl<'a> Pose<'a> {
         (here + gradient.onto_kept, gradient)
     }
 
-    /// Returns `u_aᵀ·Φ` and its gradient with respect to the numbers of the constraints. Returns
-    /// `None` if nonholonomic rows take part, because a dependency of velocities implies nothing
-    /// about positions.
+    /// Returns `u_aᵀ·Φ` and its gradient with respect to the data of the constraints. Returns
+    /// `None` if nonholonomic rows take part, because a dependency of velocities implies no
+    /// dependency of positions.
     pub(super) fn misfit(&self, a: usize) -> Option<(f64, Vec<f64>)> {
         let u = self.spread(self.left.row(a));
         let (holonomic, others) = u.split_at(self.mechanism.layout().m);
@@ -278,7 +279,7 @@ impl<'a> Pose<'a> {
         }
     }
 
-    /// Works like [`Self::gradient_between`], for forces that are combined with several velocities.
+    /// Works like [`Self::gradient_between`], for forces that are used with several velocities.
     pub(super) fn gradient_at(&self, forces: &Forces, v: &[f64]) -> Gradient {
         let v: Vec<f64> = v.iter().zip(&self.columns).map(|(x, f)| x * f).collect();
         let mut data = vec![0.0; self.mechanism.data().count()];
@@ -311,8 +312,8 @@ pub(super) struct Forces {
 mod tests {
     use super::*;
 
-    /// The second vector belongs to a singular value that is rounding of zero, and is not
-    /// orthogonal to the first vector.
+    /// The second vector belongs to a singular value that is zero to rounding. The second vector is
+    /// not orthogonal to the first vector.
     #[test]
     fn singular_vectors_of_rounding_are_replaced() {
         let columns = Matrix::from_rows(&[[1.0, 0.6], [0.0, 0.8], [0.0, 0.0]]);

@@ -1,8 +1,8 @@
 //! Decides the rank from C and the uncertainty of its data.
 //!
-//! Singular values below the uncertainty of the entries are zero, and values far above it are not
-//! zero. Between these bounds, the decision compares the error of the data that the lower rank
-//! requires with their uncertainty.
+//! Singular values below the uncertainty of the entries are zero, and singular values far above it
+//! are not zero. Between these bounds, the decision uses the error of the data that the lower rank
+//! requires. This error is compared with the uncertainty of the data.
 
 use crate::limits::{CLEAR_OF_NOISE, CLEAR_OF_ROUNDING, CONFIRMED, NEAR_TOLD};
 use linalg::Scaling;
@@ -15,14 +15,15 @@ use super::share::{Question, StatedTolerance};
 /// Result of the decision.
 pub(crate) struct Reading {
     pub(crate) rank: RankReading,
-    /// Distance of the data from one rank less, if it is small enough to be reported.
+    /// Distance of the data from one rank less, if the distance is small enough to be reported.
     pub(crate) nearness: Option<Nearness>,
     /// Whether the scene states a tolerance.
     pub(crate) has_tolerance: bool,
 }
 
 impl UncertainMatrix {
-    /// Returns the evidence for a rank from another source; `None` if the uncertainty hides it.
+    /// Returns the evidence for a rank from another source, or `None` if the uncertainty hides this
+    /// rank.
     pub(crate) fn of_rank(&self, rank: usize) -> Option<RankReading> {
         let scaling = self.scaling();
         let scaled = Spectrum::of(scaling.apply(&self.c));
@@ -114,7 +115,7 @@ impl UncertainMatrix {
             }
             _ => {}
         }
-        // A redundancy within a tolerance refers to lengths in one common unit: a short lever must
+        // A redundancy within a tolerance refers to lengths in one common unit. A short lever must
         // not be scaled up to norm one.
         let (scaling, scaled) = match grounds {
             Grounds::WithinTolerance => {
@@ -141,8 +142,8 @@ impl UncertainMatrix {
     }
 }
 
-/// Returns the status "undecided whether the rank is one less". The cause is a change of length
-/// `from` (m), or other configurations that could not be examined.
+/// Returns the status that it is undecided whether the rank is one less. The cause is a change of
+/// length `from` (m), or other configurations that could not be examined.
 fn open(
     question: &Question<'_>,
     stated: StatedTolerance,

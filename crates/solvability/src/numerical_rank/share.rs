@@ -1,5 +1,5 @@
-//! Computes the error of the data, as a fraction of their uncertainty, that a lower rank requires,
-//! and the change of dependencies within the uncertainty.
+//! Computes the error of the data that a lower rank requires, as a fraction of the uncertainty of
+//! the data. Also computes the change of dependencies within the uncertainty.
 
 use std::ops::Range;
 
@@ -13,13 +13,13 @@ use rank::RankDecision;
 use super::cone::{Bounds, Equation, least_change};
 use super::pose::{Candidate, Forces, Gradient, Pose};
 
-/// A mechanism at a configuration, with the rows to analyse.
+/// A mechanism at a configuration, and the rows to analyse.
 pub(crate) struct Question<'a> {
     pub(crate) mechanism: &'a Mechanism,
     /// Scratch in which Φ and C have been evaluated at q.
     pub(crate) s: &'a Scratch,
     pub(crate) q: &'a [f64],
-    /// Numbers of the analysed rows in the mechanism, ascending.
+    /// Numbers that the analysed rows have in the mechanism, ascending.
     pub(crate) places: &'a [usize],
     /// Size of the mechanism (m).
     pub(crate) size: f64,
@@ -28,17 +28,17 @@ pub(crate) struct Question<'a> {
 /// The tolerance that the scene states.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct StatedTolerance {
-    /// The largest tolerance of a point or a length; if none is stated, the largest tolerance of an
-    /// angle times the size (m).
+    /// The largest tolerance of a point or a length (m). If no such tolerance is stated, the
+    /// largest tolerance of an angle times the size.
     pub(super) metres: f64,
-    /// Whether the value comes from an angle.
+    /// Whether this value comes from the tolerance of an angle.
     pub(super) by_angles: bool,
 }
 
 impl Question<'_> {
-    /// Returns the change of the most changed datum for the rank `lower` at this configuration, as
-    /// a fraction of its rounding. `scaled` is the dimensionless C of this question, scaled by
-    /// `scaling`.
+    /// Returns the change that the rank `lower` requires at this configuration. The change is that
+    /// of the most changed datum, as a fraction of the rounding of this datum. `scaled` is the
+    /// dimensionless C of this question, scaled by `scaling`.
     pub(super) fn share_of_rounding(
         &self,
         scaled: &Matrix,
@@ -77,7 +77,7 @@ impl Question<'_> {
     }
 
     /// Returns coefficients with respect to the position and rotation of each body at the start,
-    /// for changes of the size of their rounding.
+    /// for changes that are as large as their rounding.
     fn by_start(&self, gradient: &[f64]) -> Vec<[f64; 3]> {
         let columns = self.mechanism.space().n_v();
         let (reach, at) = (|body| self.mechanism.reach(body), &self.s.bodies);
@@ -100,9 +100,9 @@ impl Question<'_> {
         [scaled(by_place, place), scaled(by_turn, turn)]
     }
 
-    /// Returns the largest tolerance that the scene states for a point or a length. If it states
-    /// tolerances only for angles, the function returns the largest of these, and lengths are
-    /// uncertain by rounding.
+    /// Returns the largest tolerance that the scene states for a point or a length. If the scene
+    /// states tolerances only for angles, the function returns the largest tolerance of an angle,
+    /// and lengths are uncertain by rounding.
     pub(crate) fn tolerance(&self) -> Option<StatedTolerance> {
         let blocks = self.mechanism.data().blocks(self.s);
         let largest = |unit: DataUnit| {
@@ -117,9 +117,10 @@ impl Question<'_> {
     }
 
     /// Returns the change of some rows of the left null space of the scaled C within the
-    /// uncertainty of the data at fixed rank: `δz_i = −(C⁺·e_i)ᵀ·δCᵀ·Z`. The change is computed for
-    /// an orthonormal basis Z, and for the dependency of each dropped row relative to its largest
-    /// coefficient. The result has one value for each row, zero for rows that are not in `asked`.
+    /// uncertainty of the data, at fixed rank: `δz_i = −(C⁺·e_i)ᵀ·δCᵀ·Z`. The change is computed
+    /// for an orthonormal basis Z, and for the dependency of each dropped row relative to its
+    /// largest coefficient. The result has one value for each row. The value is zero for rows that
+    /// are not in `asked`.
     pub(crate) fn rows_within_data(
         &self,
         scaled: &Matrix,
@@ -136,7 +137,7 @@ impl Question<'_> {
         let blocks = self.mechanism.data().blocks(self.s);
         let z = rank::orthonormal(decision).transpose();
         let forces: Vec<Forces> = (0..z.nrows()).map(|k| pose.forces(z.row(k))).collect();
-        // The separate dependencies in this basis; gradients are linear in them.
+        // The separate dependencies in this basis. Gradients are linear in the dependencies.
         let single = single(decision).transpose().product(&z.transpose());
         let mut known = vec![0.0; scaled.nrows()];
         for &i in asked {
@@ -167,9 +168,10 @@ impl Question<'_> {
     }
 
     /// Returns, for each row, the angle by which its force rotates within the uncertainty of the
-    /// data, including the resulting change of the configuration. The second value is the length by
-    /// which the line of action of the force shifts; two points determine this line. A row without
-    /// a force has a couple. In space, a couple also rotates within its body and with it.
+    /// data. The angle includes the effect of the resulting change of the configuration. The second
+    /// value is the length by which the line of action of the force shifts; two points determine
+    /// this line. A row without a force has a couple. In space, a couple also rotates within its
+    /// body and together with its body.
     pub(crate) fn turns(&self, scaled: &Matrix, decision: &RankDecision) -> Vec<[f64; 2]> {
         let dimensions = self.mechanism.layout().dimension_scaling(self.size);
         let candidate = Candidate::of_rank(scaled, decision.rank);
@@ -218,7 +220,7 @@ impl Question<'_> {
         (0..scaled.nrows()).map(|i| [of_row(i), shift]).collect()
     }
 
-    /// Returns C with one unit for all lengths; the largest entry of each row is near one.
+    /// Returns C with one unit for all lengths. The largest entry of each row is near one.
     pub(super) fn uniform(&self, s: &Scratch) -> (Matrix, Scaling) {
         let c = self.dimensionless(s);
         let mut scaling = Scaling::identity(c.nrows(), c.ncols());
@@ -237,9 +239,9 @@ impl Question<'_> {
     }
 
     /// Returns the change of a block that corresponds to one metre. For an angle, it is the angle
-    /// that moves a point at the size of the mechanism by one metre. With a tolerance (m), it is
-    /// the tolerance of the block relative to that tolerance; a block without tolerance changes by
-    /// its rounding.
+    /// that moves a point at the size of the mechanism by one metre. If a tolerance (m) is given,
+    /// the result is the tolerance of the block relative to this tolerance. A block without a
+    /// tolerance changes by its rounding.
     pub(super) fn unit(&self, block: &DataBlock, tolerance: Option<f64>) -> f64 {
         match (tolerance, block.unit) {
             (Some(tolerance), _) => block.known_to() / tolerance,
@@ -249,8 +251,8 @@ impl Question<'_> {
     }
 }
 
-/// Returns the dependency of each dropped row in terms of the scaled rows, with largest coefficient
-/// 1.
+/// Returns the dependency of each dropped row in terms of the scaled rows. The largest coefficient
+/// of each dependency is 1.
 fn single(decision: &RankDecision) -> Matrix {
     let t = decision.equilibrated_dependence();
     let mut z = Matrix::zeros(decision.rank + decision.redundancy, decision.redundancy);
@@ -275,7 +277,7 @@ pub(super) fn rounding(scaled: &Matrix) -> f64 {
 }
 
 /// Returns the equation for a value that must vanish. The coefficients of the equation belong to
-/// changes of blocks by their uncertainty.
+/// changes of blocks by the uncertainty of the blocks.
 pub(super) fn equation(
     target: f64,
     gradient: &[f64],

@@ -1,10 +1,10 @@
-//! Determines which rows certainly belong to a dependency, if the data have a stated tolerance.
+//! Determines which rows certainly belong to a dependency if the data have a stated tolerance.
 //!
-//! A dependency `row s = Σ t_k·row k` over independent rows K that contain all of its other rows
-//! has one coefficient for each row of K, which is zero for rows outside the dependency. At
-//! constant rank, the coefficient changes with the data by `δt_k = zᵀ·δC·C_K⁺·e_k`, where z is the
-//! dependency itself. If such a change makes a coefficient zero, or a zero coefficient different
-//! from zero, it is undecided which rows depend on each other.
+//! Let `row s = Σ t_k·row k` be a dependency over independent rows K that contain all of its other
+//! rows. The dependency has one coefficient for each row of K, which is zero for rows outside the
+//! dependency. At constant rank, the coefficient changes with the data by `δt_k = zᵀ·δC·C_K⁺·e_k`,
+//! where z is the dependency itself. If such a change makes a coefficient zero, or a zero
+//! coefficient different from zero, it is undecided which rows depend on each other.
 
 use linalg::{Matrix, PivotedQr};
 use model::System;
@@ -13,9 +13,9 @@ use rank::{Circuit, CoefficientReading, RankDecision};
 use super::pose::{Candidate, Pose, most_independent_of};
 use super::share::Question;
 
-/// A dependency expressed in independent rows that contain its other rows.
+/// A dependency expressed by independent rows that contain its other rows.
 struct Fundamental {
-    /// Independent rows, ascending; their number is the rank.
+    /// Independent rows, ascending. The number of these rows is the rank.
     kept: Vec<usize>,
     /// Coefficients of these rows.
     t: Vec<f64>,

@@ -1,6 +1,6 @@
-//! Mechanisms near a lower rank, with the change of data that lowers it. The expected numbers come
-//! from another solution of the same cone program (linear programming over coordinates,
-//! configurations by finite differences), or from manual calculation if a test states this.
+//! Mechanisms near a lower rank, and the change of data that lowers the rank. The expected numbers
+//! come from another solution of the same cone program (linear programming over coordinates,
+//! configurations by finite differences). If a test states this, they come from manual calculation.
 
 use joints::{Distance, Line, PointOnLine, Revolute};
 use model::{Body, BodyRef, Description, Function, Mechanism};
@@ -18,7 +18,7 @@ fn bar(name: &str, [x, y]: [f64; 2], angle: f64) -> Body {
 }
 
 /// Three parallel cranks of half a metre on one coupler. The ground pin of the third crank is
-/// displaced by `off` along the base, and the hole of the crank is at the pin.
+/// displaced by `off` along the base, and the hole of this crank is at the pin.
 fn three_cranks(off: f64) -> Description {
     let angle = 0.7_f64;
     let (c, s) = (0.5 * angle.cos(), 0.5 * angle.sin());
@@ -44,8 +44,8 @@ fn three_cranks(off: f64) -> Description {
     d
 }
 
-/// A four-bar near its dead centre: crank and coupler enclose only `angle`, and a bar across the
-/// rocker fixes it.
+/// A four-bar near its dead centre. The angle between crank and coupler is only `angle`, and a bar
+/// across the rocker fixes the rocker.
 fn held_four_bar(angle: f64) -> Description {
     let (a, b, c, g) = (0.2_f64, 0.5, 0.4, 0.6);
     let turn = (((a + b) * (a + b) + g * g - c * c) / (2.0 * (a + b) * g)).acos() + angle;
@@ -94,8 +94,8 @@ fn lower_rank(analysis: &Analysis) -> [Option<f64>; 2] {
     [certificate.lower_rank_here, certificate.lower_rank_from]
 }
 
-/// The constraint violation has to vanish at all configurations. The eight points between the first
-/// and the third crank share it, an eighth each.
+/// The constraint violation has to vanish at all configurations. It is divided among the eight
+/// points between the first and the third crank, an eighth for each point.
 #[test]
 fn a_pin_that_is_off_is_redundant_from_a_part_of_the_misfit_on() {
     assert_eq!(analysed(&three_cranks(0.0)).decision.rank, 11);
@@ -117,8 +117,8 @@ fn a_pin_that_is_off_is_redundant_from_a_part_of_the_misfit_on() {
     }
 }
 
-/// A pin with an error of one nanometre: the required change of data is still that of the
-/// constraint violation, and not that of the rounding of the entries.
+/// A pin with an error of one nanometre. The required change of data is still determined by the
+/// constraint violation, and not by the rounding of the entries.
 #[test]
 fn a_misfit_above_the_rounding_of_entries_is_one_of_data() {
     let [Some(here), _] = lower_rank(&analysed(&three_cranks(1e-9))) else {
@@ -128,7 +128,8 @@ fn a_misfit_above_the_rounding_of_entries_is_one_of_data() {
 }
 
 /// A beam on rollers at 0, 1 and ε: `row 2 = (1 − ε)·row 0 + ε·row 1`. The effect of the rounding
-/// of the data on a row is computed if its coefficient is neither noise nor certainly nonzero.
+/// of the data on a row is computed if the coefficient of the row is neither noise nor certainly
+/// nonzero.
 #[test]
 fn data_are_asked_about_small_coefficients_that_are_no_noise() {
     let beam = |epsilon: f64| {
@@ -176,8 +177,8 @@ fn within(mut description: Description, tolerance: f64) -> Description {
     description
 }
 
-/// The third crank is redundant above a twentieth of a millimetre. Tolerances of a third of this
-/// value and three times this value are decided.
+/// The third crank is redundant above a twentieth of a millimetre. For tolerances of a third of
+/// this value and of three times this value, the result is decided.
 #[test]
 fn a_tolerance_decides_what_is_redundant() {
     for (tolerance, rank) in [(1.2e-5, Some(12)), (5e-5, None), (1e-3, Some(11))] {
@@ -194,7 +195,7 @@ fn a_tolerance_decides_what_is_redundant() {
     let certificate = analysis.evidence().certificate.clone();
     let certificate = certificate.expect("certified");
     assert_eq!(certificate.grounds, rank::Grounds::WithinTolerance);
-    // Without a constraint violation all bearings share their load, as they do here.
+    // Without a constraint violation, the load is divided among all bearings, as it is here.
     for reaction in &analysis.reactions {
         assert_eq!(
             reaction.wrench.verdict,
@@ -205,7 +206,8 @@ fn a_tolerance_decides_what_is_redundant() {
     }
 }
 
-/// Near a dead centre, a row is redundant at one configuration only: no tolerance drops it.
+/// Near a dead centre, a row is redundant at one configuration only. No tolerance makes the row
+/// redundant.
 #[test]
 fn a_tolerance_drops_no_row_for_a_pose() {
     for angle in [1e-4, 1e-3] {
@@ -215,9 +217,10 @@ fn a_tolerance_drops_no_row_for_a_pose() {
     }
 }
 
-/// A truss with five bars that are displaced from one line by `off`, and two oblique bars. One of
-/// the three bars at the hinge of a body has its hole displaced by the same length. One of the
-/// seven rows is redundant for all positions of the points, and one more if they are collinear.
+/// A truss with five bars that are displaced from one line by `off`, and two oblique bars. There
+/// are three bars at the hinge of a body; the hole of one of these bars is displaced by the same
+/// length. One of the seven rows is redundant for all positions of the points. One more row is
+/// redundant if the points are collinear.
 #[test]
 fn rows_that_are_nearly_redundant_at_a_pose_are_left_out_together() {
     let truss = |off: f64| {
@@ -252,7 +255,8 @@ fn rows_that_are_nearly_redundant_at_a_pose_are_left_out_together() {
     }
 }
 
-/// A door on three hinges; the third is half a millimetre off the axis of the others.
+/// A door on three hinges. The third hinge is half a millimetre off the axis of the first two
+/// hinges.
 fn door(off: f64) -> Description {
     let mut d = Description::new("door");
     let leaf = d.body(Body {
@@ -269,7 +273,7 @@ fn door(off: f64) -> Description {
     d
 }
 
-/// Two points half a millimetre apart coincide within a millimetre: the door turns.
+/// Two points half a millimetre apart coincide within a millimetre. Therefore the door turns.
 #[test]
 fn a_door_turns_within_its_tolerance() {
     let exact = analysed(&door(0.0));
@@ -280,8 +284,9 @@ fn a_door_turns_within_its_tolerance() {
     assert_eq!((turns.decision.rank, turns.mobility()), (2, 1));
 }
 
-/// Two parallel hydraulic cylinders that rotate an arm about its hinge. The directions of their
-/// axes are rounded to `digits` digits: one cylinder may pull back what the other pushes.
+/// Two parallel hydraulic cylinders rotate an arm about its hinge. The directions of the axes of
+/// the cylinders are rounded to `digits` digits. The load in one cylinder may be opposite to the
+/// load in the other cylinder.
 fn cylinders(digits: Option<i32>) -> Description {
     let mut d = Description::new("cylinders");
     let angle = 0.6_f64;
@@ -332,9 +337,9 @@ fn cylinders(digits: Option<i32>) -> Description {
     d
 }
 
-/// The mechanism has the same verdicts for any number of digits of its axes: the verdicts of the
-/// exact mechanism. If the digits assign a fraction of the free force to a slide, the margin of the
-/// slide is reported.
+/// The mechanism has the same verdicts for any number of digits of its axes. These are the verdicts
+/// of the exact mechanism. If the digits assign a fraction of the free force to a slide, the margin
+/// of the slide is reported.
 #[test]
 fn parallel_cylinders_are_one_mechanism_with_any_digits() {
     let verdicts = |analysis: &Analysis| -> Vec<&'static str> {
@@ -365,7 +370,8 @@ fn parallel_cylinders_are_one_mechanism_with_any_digits() {
     assert_eq!(exact, [n, n, u, n, n, u, n, n, n]);
     for (digits, least, most) in [
         (None, 0.0, 1e-15),
-        // The cosine of 0.6 is wrong by 3.6e-5, the sine by 4.2e-5, the direction by 1.5e-5 rad.
+        // The cosine of 0.6 is wrong by 3.6e-5, the sine is wrong by 4.2e-5, and the direction is
+        // wrong by 1.5e-5 rad.
         (Some(4), 1e-6, 1.5e-5),
         (Some(6), 1e-8, 1.5e-6),
         (Some(12), 0.0, 1e-12),
@@ -394,11 +400,11 @@ fn parallel_cylinders_are_one_mechanism_with_any_digits() {
     }
 }
 
-/// Two slides between the ground and one body, whose forces act on lines at this distance, in a
-/// scene of two metres. The combination `n_B − n_A` rotates the body by that lever, which the angle
-/// rows balance. A lever that is zero within the tolerance is omitted, and its size is reported. If
-/// the lever may be zero, it is undecided whether the angle rows belong to the dependency. A large
-/// lever is part of it.
+/// Two slides between the ground and one body, in a scene of two metres. Their forces act on lines
+/// at this distance from each other. The combination `n_B − n_A` rotates the body by this lever,
+/// and the angle rows balance the rotation. A lever that is zero within the tolerance is omitted,
+/// and its size is reported. If the lever may be zero, it is undecided whether the angle rows
+/// belong to the dependency. A large lever is part of the dependency.
 #[test]
 fn a_dependency_that_hangs_on_a_coefficient_is_marked_or_withheld() {
     let judged = |apart: f64, tolerance: f64| {
@@ -425,9 +431,9 @@ fn a_dependency_that_hangs_on_a_coefficient_is_marked_or_withheld() {
     assert_eq!(judged(0.02, 1e-5), (vec![2, 3], false, 0.0));
 }
 
-/// Two equal bars, one metre long, whose direction differs from the y-axis by this angle: neither
-/// force is unique. The x component counts as zero within the tolerance if it is far below both the
-/// tolerance and a thousandth, and as not zero if it is far above.
+/// Two equal bars, one metre long, whose direction differs from the y-axis by this angle. Neither
+/// force is unique. The x component counts as zero within the tolerance if it is far below the
+/// tolerance and far below a thousandth. It counts as nonzero if it is far above both values.
 #[test]
 fn a_component_that_is_none_within_the_tolerance_says_so() {
     let judged = |across: f64, tolerance: f64| {
@@ -453,7 +459,8 @@ fn a_component_that_is_none_within_the_tolerance_says_so() {
         none.verdict.is_unique() && none.within_tolerance,
         "{none:?}"
     );
-    // One of two equal forces with a given sum: half of both, 1/√2 of a unit vector.
+    // One of two equal forces with a given sum: half of both forces, which is 1/√2 of a unit
+    // vector.
     assert!(
         (none.margin / 1e-4 - 0.5_f64.sqrt()).abs() < 0.01,
         "{none:?}"
@@ -465,8 +472,8 @@ fn a_component_that_is_none_within_the_tolerance_says_so() {
     }
 }
 
-/// Two knife edges on one axle that are parallel to within a thousandth: within a tolerance of a
-/// centimetre one of them is redundant, and neither force is unique.
+/// Two knife edges on one axle that are parallel to within a thousandth. Within a tolerance of a
+/// centimetre one of the edges is redundant, and neither force is unique.
 #[test]
 fn edges_of_one_axle_share_their_force_within_a_tolerance() {
     let d = axle(1e-3);
@@ -495,8 +502,9 @@ fn axle(angle: f64) -> Description {
     d
 }
 
-/// Both directions have to be perpendicular to the axle, so one of them rotates by the whole
-/// difference. No tolerance of lengths is stated, so lengths are uncertain by rounding.
+/// Both directions have to be perpendicular to the axle, so one of the directions rotates by the
+/// whole difference. No tolerance of lengths is stated, so lengths are uncertain by rounding
+/// errors.
 #[test]
 fn an_angle_tolerance_counts_alone() {
     let judged = |tolerance: model::Tolerance| {
@@ -525,7 +533,7 @@ fn an_angle_tolerance_counts_alone() {
     assert_eq!(full.decision.rank, 2);
     let certificate = full.evidence().certificate.clone();
     let certificate = certificate.expect("certified");
-    // Edges 1 m apart: the size is one.
+    // The edges are 1 m apart, so the size is one.
     let from = certificate.lower_rank_from.expect("near");
     assert!(certificate.lower_rank_by_angles);
     assert!((from / 1e-4 - 1.0).abs() < 0.06, "{from:e}");
@@ -539,13 +547,14 @@ fn an_angle_tolerance_counts_alone() {
         "{text}"
     );
 
-    // A tolerance of length is equivalent to one of angles, divided by the size.
+    // A tolerance of length is equivalent to a tolerance of angles that is divided by the size.
     let length = model::Tolerance {
         length: Some(1e-3),
         angle: None,
     };
     assert_eq!(judged(length).decision.rank, 1);
-    // Small lengths with large angles: the angles decide.
+    // With small tolerances of lengths and large tolerances of angles, the angles determine the
+    // result.
     let both = model::Tolerance {
         length: Some(1e-9),
         angle: Some(1e-3),
@@ -553,8 +562,8 @@ fn an_angle_tolerance_counts_alone() {
     assert_eq!(judged(both).decision.rank, 1);
 }
 
-/// A bar between two pins on the ground, one of them 0.05 mm too far away: no configuration
-/// satisfies all rows, but data within 0.1 mm would.
+/// A bar between two pins on the ground. One pin is 0.05 mm too far away. No configuration
+/// satisfies all rows, but a configuration exists for data that differ by at most 0.1 mm.
 #[test]
 fn data_that_contradict_each_other_within_the_tolerance_are_assembled() {
     let clamped = |tolerance: Option<f64>| {
@@ -589,7 +598,7 @@ fn data_that_contradict_each_other_within_the_tolerance_are_assembled() {
         (analysis.decision.rank, analysis.decision.redundancy),
         (3, 1)
     );
-    // The pins can push against each other along the bar.
+    // A load along the bar in both pins is possible: the pins push against each other.
     let verdicts = analysis.reactions.iter().map(|r| {
         let components = r.components.iter();
         components

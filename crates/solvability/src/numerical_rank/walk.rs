@@ -1,12 +1,12 @@
 //! Continuation of a mechanism on its kept rows to other configurations. A redundancy exists at all
-//! of these configurations, a singularity only at one.
+//! of these configurations, but a singularity exists at only one configuration.
 //!
-//! Within a stated tolerance, the intended mechanism has other data, and a nearby configuration. To
+//! Within a stated tolerance, the intended mechanism has other data and a nearby configuration. To
 //! first order, data within the tolerance move a configuration by up to δq, and C_K changes along
 //! this displacement by δC_K. By the theorem of Newton and Kantorovich, the configuration certainly
-//! exists if `‖C_K⁺·δC_K‖ ≤ ½`. Beyond this limit, the first order gives no result: near a singular
-//! configuration of the kept rows, a continuation may follow a branch that the intended mechanism
-//! does not have.
+//! exists if `‖C_K⁺·δC_K‖ ≤ ½`. Beyond this limit, the first order is not sufficient. Near a
+//! singular configuration of the kept rows, a continuation may follow a branch that the intended
+//! mechanism does not have.
 //!
 //! Source: P. Deuflhard, Newton Methods for Nonlinear Problems (2004), section 2.1, for the form
 //! that does not depend on the scales of the rows.
@@ -31,10 +31,10 @@ pub(super) struct Walk {
     is_still: bool,
 }
 
-/// Configurations on one side of the first one.
+/// Configurations on one side of the first configuration.
 #[derive(Default)]
 struct Side {
-    /// Steps, if nonholonomic rows are kept.
+    /// Steps to the configurations, if nonholonomic rows are kept.
     way: Vec<Step>,
     stops: Vec<Stop>,
 }
@@ -73,8 +73,8 @@ impl Walk {
         self.sides.each_ref().map(|side| side.stops.len())
     }
 
-    /// Returns the number of configurations on each side before the first one that data within the
-    /// tolerance move too far for the first order.
+    /// Returns the number of configurations on each side before the limit of the first order. At
+    /// this limit, data within the tolerance move a configuration too far for the first order.
     pub(super) fn known_reach(&self) -> [usize; 2] {
         self.sides.each_ref().map(|side| {
             let known = side.stops.iter().take_while(|stop| stop.blur <= KNOWN_POSE);
@@ -82,8 +82,10 @@ impl Walk {
         })
     }
 
-    /// Returns the reach without the configuration that data move farthest and without those beyond
-    /// it, if changes of this share of the tolerance move it too far for the first order.
+    /// Removes the configuration that data within the tolerance move farthest, and all
+    /// configurations beyond this configuration, from the reach. The configurations are removed
+    /// only if changes of the data by this share of the tolerance move the configuration too far
+    /// for the first order.
     pub(super) fn shorter(&self, reach: [usize; 2], share: f64) -> Option<[usize; 2]> {
         let of_side = |k: usize| {
             let stops = self.sides[k].stops[..reach[k]].iter().enumerate();
@@ -96,15 +98,16 @@ impl Walk {
         (blur * share > KNOWN_POSE).then_some(reach)
     }
 
-    /// Returns whether all configurations of one side are within reach, or no motion is possible.
+    /// Returns whether all configurations of one side are within reach, or whether no motion is
+    /// possible.
     pub(super) fn is_complete(&self, reach: [usize; 2]) -> bool {
         self.is_still || reach.contains(&WALK_POSES)
     }
 }
 
-/// Returns up to six configurations on both sides of the given one, on the kept rows of Φ. The
-/// continuation follows velocities that all kept rows allow: mainly the velocity that only the
-/// dropped rows prevent.
+/// Returns up to six configurations on both sides of the given configuration, on the kept rows of
+/// Φ. The continuation uses velocities that all kept rows allow. The continuation mainly uses the
+/// velocity that only the dropped rows prevent.
 pub(super) fn walk(question: &Question<'_>, kept: &[usize]) -> Walk {
     let (mechanism, size) = (question.mechanism, question.size);
     let ground = Ground {
@@ -146,8 +149,8 @@ pub(super) fn walk(question: &Question<'_>, kept: &[usize]) -> Walk {
     Walk { sides, is_still }
 }
 
-/// Returns `‖C_K⁺·δC_K‖` of the kept rows of Φ. Data within their uncertainty move the
-/// configuration such that one of its coordinates moves as far as possible.
+/// Returns `‖C_K⁺·δC_K‖` of the kept rows of Φ. The data change within their uncertainty so that
+/// one coordinate of the configuration moves as far as possible.
 fn blur(ground: &Ground<'_>, q: &[f64]) -> f64 {
     let (mechanism, data) = (ground.mechanism, ground.mechanism.data());
     let rows = ground.holonomic();
@@ -197,8 +200,8 @@ fn blur(ground: &Ground<'_>, q: &[f64]) -> f64 {
     blur.map_or(0.0, |blur| if blur.is_nan() { f64::INFINITY } else { blur })
 }
 
-/// Performs one step, which is recorded if nonholonomic rows are kept. Returns `None` if the step
-/// fails.
+/// Performs one step. The step is recorded if nonholonomic rows are kept. Returns `None` if the
+/// step fails.
 fn step(
     ground: &Ground<'_>,
     (side, stride): (f64, f64),
@@ -246,7 +249,8 @@ fn free_directions(c: &Matrix, kept: &[usize]) -> Matrix {
     Candidate::of_rows(c, kept.to_vec()).into_free()
 }
 
-/// Returns the first direction with a small part of the others, so that every freedom moves.
+/// Returns the first direction with a small part of the other directions, so that every freedom
+/// moves.
 fn mixed(free: &Matrix, side: f64) -> Vec<f64> {
     let share = |k: usize| match k {
         0 => side,

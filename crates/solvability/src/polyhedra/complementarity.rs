@@ -1,13 +1,14 @@
 //! Accelerations of supports that can lift.
 //!
-//! Without supporting forces the gaps of n supports have the accelerations r. The forces f ≥ 0 add
-//! W·f, so that `a = r + W·f ≥ 0`, and a support that lifts carries nothing: `f·a = 0`. By Gauss'
-//! principle f minimises `½·fᵀ·W·f + rᵀ·f`. The accelerations a are unique. The forces are not if
-//! supports are redundant, that is, if W is singular.
+//! Without supporting forces, the gaps of n supports have the accelerations r. The forces f ≥ 0 add
+//! W·f, so that `a = r + W·f ≥ 0`. A support that lifts carries no load: `f·a = 0`. By Gauss'
+//! principle f minimises `½·fᵀ·W·f + rᵀ·f`. The accelerations a are unique. The forces are not
+//! unique if supports are redundant, that is, if W is singular.
 //!
-//! The method is that of C. L. Lawson and R. J. Hanson, *Solving Least Squares Problems*, 1974,
-//! chapter 23. Only a support with a negative acceleration is added to those that carry a load. Its
-//! column of W is then independent of theirs, so their forces are unique.
+//! The method is described by C. L. Lawson and R. J. Hanson, *Solving Least Squares Problems*,
+//! 1974, chapter 23. A support is added to the supports that carry a load only if its acceleration
+//! is negative. The column of W of this support is then independent of the columns of these
+//! supports. Therefore the forces of these supports are unique.
 
 use linalg::{Dd, Lu, Matrix, kernels};
 
@@ -17,9 +18,11 @@ use crate::limits::{CLEAR_SUPPORT, PIVOTS, SUPPORT_ROUNDING};
 /// Forces and accelerations of supports.
 #[derive(Debug)]
 pub(crate) struct SupportMotion {
-    /// f ≥ 0, one of the solutions.
+    /// Forces f ≥ 0 of the supports. The forces are one of several possible solutions if supports
+    /// are redundant.
     pub(crate) forces: Vec<f64>,
-    /// a ≥ 0. A support lifts if and only if its acceleration is positive.
+    /// Accelerations a ≥ 0 of the gaps. A support lifts if and only if its acceleration is
+    /// positive.
     pub(crate) accelerations: Vec<f64>,
 }
 
@@ -67,8 +70,7 @@ pub(crate) fn support_motion(w: &Matrix, r: &[f64]) -> Result<SupportMotion, Unc
     Err(Unclear::Steps)
 }
 
-/// The part of the acceleration due to its own force that remains if the other supports stay
-/// closed.
+/// Returns the acceleration of a support due to its own force, if the other supports stay closed.
 fn independent_part(w: &Matrix, carrying: &[usize], next: usize) -> Result<f64, Unclear> {
     let column: Vec<f64> = carrying.iter().map(|&k| w[(k, next)]).collect();
     let share = solve(w, carrying, &column)?;
@@ -76,8 +78,8 @@ fn independent_part(w: &Matrix, carrying: &[usize], next: usize) -> Result<f64, 
     Ok((own - exact_dot(&column, &share)).to_f64() / own.to_f64())
 }
 
-/// Computes the forces with which the supports that carry a load do not move. Supports whose force
-/// would be negative are removed.
+/// Computes the forces with which the supports that carry a load have no acceleration. Supports
+/// whose force would be negative are removed.
 fn carry(
     w: &Matrix,
     r: &[f64],
@@ -126,8 +128,8 @@ fn solve(w: &Matrix, supports: &[usize], right: &[f64]) -> Result<Vec<f64>, Uncl
 mod tests {
     use super::*;
 
-    /// The accelerations with the first set of supports that carry a load and satisfy all
-    /// conditions. W is regular.
+    /// Returns the accelerations for the first set of supports that carry a load and satisfy all
+    /// conditions. W must be regular.
     fn enumerated(w: &Matrix, r: &[f64]) -> Vec<f64> {
         let n = r.len();
         let mut solutions = (0..1_usize << n).filter_map(|set| {
@@ -146,8 +148,8 @@ mod tests {
         solutions.next().expect("a solution")
     }
 
-    /// W = J·Jᵀ for random directions of supports, and r = J·g for random loads: the supports are
-    /// consistent if they are redundant.
+    /// W = J·Jᵀ for random directions of supports, and r = J·g for random loads. Redundant supports
+    /// are therefore consistent.
     #[test]
     fn accelerations_are_those_of_the_set_that_carries() {
         let mut x = 0.41_f64;
@@ -190,8 +192,8 @@ mod tests {
         );
     }
 
-    /// A table of 12 kg on four feet, with the load 0.1 m beyond the edge AB: it turns about the
-    /// edge with α = m·g·d/(I + m·d²), I = 1 kg·m².
+    /// A table of 12 kg on four feet, with the load 0.1 m beyond the edge AB. The table rotates
+    /// about the edge with α = m·g·d/(I + m·d²), I = 1 kg·m².
     #[test]
     fn a_table_tips_about_its_edge() {
         let (m, i, g, d) = (12.0, 1.0, 9.81, 0.1);
@@ -209,7 +211,7 @@ mod tests {
         for (a, expected) in found.accelerations.iter().zip(expected) {
             assert!((a - expected).abs() < 1e-12, "{a} is not {expected}");
         }
-        // The mass centre falls.
+        // The acceleration of the mass centre is downwards.
         let up: f64 = found.forces.iter().sum::<f64>() / m - g;
         assert!((up + alpha * d).abs() < 1e-12, "{up}");
     }

@@ -1,12 +1,13 @@
-//! Points y that satisfy `row·y + value ≥ 0` for several rows, and the range of a number over them.
+//! Points y that satisfy `row·y + value ≥ 0` for several rows, and the range of a number over these
+//! points.
 //!
-//! Both questions are linear programs with one variable for each half space. Their solutions are
-//! weights that prove the answer. Each answer is checked with its weights and its point, in
-//! double-double arithmetic, before it is returned.
+//! Both results are computed by linear programs with one variable for each half space. The
+//! solutions of the programs are weights that prove the result. Each result is checked with its
+//! weights and its point, in double-double arithmetic, before it is returned.
 //!
-//! Degenerate data are common: with the load above an edge of a table, the points form a set of
-//! width zero. Rounding errors of the values, [`SUPPORT_ROUNDING`] of their size, therefore do not
-//! make the set empty.
+//! Degenerate data are common. For example, if the load is above an edge of a table, the points
+//! form a set of width zero. Therefore rounding errors of the values, [`SUPPORT_ROUNDING`] of their
+//! size, do not make the set empty.
 
 use linalg::{Dd, Matrix, kernels};
 
@@ -24,7 +25,7 @@ pub(crate) struct HalfSpace {
 /// The intersection of half spaces.
 #[derive(Debug)]
 pub(crate) struct Polyhedron {
-    /// One row for each half space. A row within rounding of zero is zero.
+    /// One row for each half space. A row that is zero to within rounding is set to zero.
     rows: Matrix,
     values: Vec<f64>,
     /// Size of the data from which the values were computed.
@@ -35,17 +36,18 @@ pub(crate) struct Polyhedron {
 /// Whether half spaces have a common point.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) enum Emptiness {
-    /// There are points.
+    /// The half spaces have common points.
     Points {
-        /// The largest value of the smallest `row·y + value`, if it is bounded. It is negative if
-        /// the points satisfy the half spaces only to within rounding.
+        /// The largest value of the smallest `row·y + value`, if it is bounded. The value is
+        /// negative if the points satisfy the half spaces only to within rounding.
         depth: Option<f64>,
     },
-    /// There is no point: w ≥ 0, `Σ w = 1`, `Σ w·row = 0` and `Σ w·value < 0`.
+    /// There is no common point. Weights w ≥ 0 exist with `Σ w = 1`, `Σ w·row = 0` and `Σ w·value <
+    /// 0`.
     Empty {
-        /// w, one number for each half space.
+        /// The weights w, one number for each half space.
         weights: Vec<f64>,
-        /// `Σ w·value`, the largest value of the smallest `row·y + value`.
+        /// The sum `Σ w·value`, which is the largest value of the smallest `row·y + value`.
         depth: f64,
     },
 }
@@ -68,20 +70,20 @@ pub(crate) enum Extremum {
         value: f64,
         /// A point at which the number has this value.
         at: Vec<f64>,
-        /// u ≥ 0, one number for each half space. For the lowest value, `Σ u·row` is the row of the
-        /// number, and the end is its value at y = 0 minus `Σ u·value`. For the highest value,
-        /// `Σ u·row` is the negative of the row, and `Σ u·value` is added.
+        /// Weights u ≥ 0, one number for each half space. For the lowest value, `Σ u·row` is the
+        /// row of the number, and the end is the value of the number at y = 0 minus `Σ u·value`.
+        /// For the highest value, `Σ u·row` is the negative of the row, and `Σ u·value` is added.
         weights: Vec<f64>,
     },
     /// The number changes without limit.
     Infinite {
-        /// A direction of the polyhedron along which it does.
+        /// A direction of the polyhedron along which the number changes without limit.
         ray: Vec<f64>,
     },
 }
 
 impl Extremum {
-    /// The weights of a finite end, and its value.
+    /// Returns the weights of a finite end, and its value.
     fn finite(&self) -> Option<(f64, &[f64])> {
         match self {
             Self::Finite { value, weights, .. } => Some((*value, weights)),
@@ -91,9 +93,9 @@ impl Extremum {
 }
 
 impl Polyhedron {
-    /// Intersects half spaces of points y with p coordinates. The rows are those of an orthonormal
-    /// basis, or combinations of a few of them, so a row of length [`ZERO_MINOR`] is rounding. The
-    /// values are in the unit of `size`, the size of the loads.
+    /// Intersects half spaces of points y with p coordinates. The rows are rows of an orthonormal
+    /// basis, or combinations of a few such rows. Therefore a row of length [`ZERO_MINOR`] is
+    /// rounding. The values are in the unit of `size`, the size of the loads.
     ///
     /// # Panics
     /// Panics if a row does not have p entries.
@@ -116,12 +118,12 @@ impl Polyhedron {
         polyhedron
     }
 
-    /// Returns whether there are points.
+    /// Returns whether the polyhedron has points.
     pub(crate) fn emptiness(&self) -> Result<&Emptiness, Unclear> {
         self.emptiness.as_ref().map_err(|reason| *reason)
     }
 
-    /// Returns the range of `row·y + value` over the points, if there are any.
+    /// Returns the range of `row·y + value` over the points if there are any points.
     pub(crate) fn range(
         &self,
         row: &[f64],
@@ -133,7 +135,7 @@ impl Polyhedron {
         let row = without_rounding(row)?;
         let end = |sign| {
             let end = self.end(&row, value, sign)?;
-            // The half spaces contradict each other, but by no more than rounding.
+            // The half spaces contradict each other only by rounding.
             end.ok_or_else(|| depth.map_or(Unclear::Unproved, Unclear::Depth))
         };
         let ends = [end(1.0)?, end(-1.0)?];
@@ -152,8 +154,8 @@ impl Polyhedron {
         Ok(Some(AdmissibleRange { ends, is_point }))
     }
 
-    /// The largest value of the smallest `row·y + value`: the least `Σ w·value` with w ≥ 0,
-    /// `Σ w·row = 0` and `Σ w = 1`.
+    /// Finds the largest value of the smallest `row·y + value`. The value is the least `Σ w·value`
+    /// with w ≥ 0, `Σ w·row = 0` and `Σ w = 1`.
     fn find_depth(&self) -> Result<Emptiness, Unclear> {
         let p = self.rows.ncols();
         let columns = Matrix::from_fn(self.rows.nrows(), p + 1, |k, i| {
@@ -196,8 +198,8 @@ impl Polyhedron {
         }
     }
 
-    /// The lowest value of `row·y + value` for the sign 1, the highest one for −1. There is no end
-    /// if the half spaces contradict each other.
+    /// Returns the lowest value of `row·y + value` for the sign 1, and the highest value for the
+    /// sign −1. There is no end if the half spaces contradict each other.
     fn end(&self, row: &[f64], value: f64, sign: f64) -> Result<Option<Extremum>, Unclear> {
         let right: Vec<f64> = row.iter().map(|x| sign * x).collect();
         let program = Program {
@@ -271,7 +273,7 @@ fn negative(x: &[f64]) -> Vec<f64> {
     x.iter().map(|x| -x).collect()
 }
 
-/// Returns the row, or a row of zeros if it is zero to within rounding.
+/// Returns the row, or a row of zeros if the row is zero to within rounding.
 fn without_rounding(row: &[f64]) -> Result<Vec<f64>, Unclear> {
     let length = kernels::norm(row);
     if length >= CLEAR_MINOR {
@@ -311,7 +313,7 @@ mod tests {
         })
     }
 
-    /// Tables on three legs without pull, from the moments about the edges.
+    /// Compares with tables on three legs without pull, computed from the moments about the edges.
     #[test]
     fn pushes_of_a_table_are_those_on_three_legs() {
         let (pushes, z) = ([53.955, 19.62, 19.62, 24.525], [0.5, -0.5, 0.5, -0.5]);
@@ -338,7 +340,8 @@ mod tests {
 
     #[test]
     fn a_load_above_an_edge_is_not_outside() {
-        // Legs C and D carry nothing if the load is above the edge AB, and `outside` if it is not.
+        // Legs C and D carry no load if the load is above the edge AB. If it is beyond the edge,
+        // they carry `outside`.
         let pushes = |outside: f64| [88.29, 29.43, -outside * WEIGHT, -outside * WEIGHT];
         let at = |outside| table(pushes(outside), [0.5, -0.5, 0.5, -0.5]);
         for outside in [0.0, 1e-14, -1e-14] {
@@ -396,8 +399,8 @@ mod tests {
         assert!(space.range(&[0.0, 0.0], 1.0).unwrap().unwrap().is_point);
     }
 
-    /// The feet of a see-saw carry a moment with levers that differ by 1e6, and one number does not
-    /// depend on y except for rounding.
+    /// The feet of a see-saw carry a moment. The levers of the feet differ by a factor of 1e6. One
+    /// number does not depend on y except for rounding.
     #[test]
     fn rows_of_very_different_size_are_decided() {
         let of = |small: f64| {

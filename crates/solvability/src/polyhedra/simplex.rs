@@ -8,9 +8,9 @@
 //! pivoting rules for the simplex method, Math. Oper. Res. 2 (1977) 103–107) until a step changes
 //! one, so the search ends at degenerate vertices.
 //!
-//! The columns of A may differ in size: components are compared with the lengths of their columns.
-//! The rounding errors of b are relative to its size, and those of the costs to a size that the
-//! caller states.
+//! The columns of A may differ in size, because components are compared with the lengths of their
+//! columns. The rounding errors of b are relative to the size of b. The rounding errors of the
+//! costs are relative to a size that the caller states.
 
 use linalg::{Lu, Matrix, kernels};
 
@@ -19,11 +19,11 @@ use crate::limits::{CLEAR_MINOR, PIVOTS, SUPPORT_ROUNDING, ZERO_MINOR};
 
 /// A linear program.
 pub(crate) struct Program<'p> {
-    /// Aᵀ: row k is column k of A.
+    /// The matrix Aᵀ. Row k is column k of A.
     pub(crate) columns: &'p Matrix,
-    /// b, one number for each equation.
+    /// The vector b, one number for each equation.
     pub(crate) right: &'p [f64],
-    /// c, one number for each column.
+    /// The vector c, one number for each column.
     pub(crate) cost: &'p [f64],
     /// Size of the data from which the costs were computed.
     pub(crate) cost_size: f64,
@@ -36,14 +36,14 @@ pub(crate) enum Outcome {
     Optimal {
         /// A vertex with this cost.
         x: Vec<f64>,
-        /// y with `Aᵀ·y ≤ c` and `bᵀ·y = cᵀ·x`.
+        /// A vector y with `Aᵀ·y ≤ c` and `bᵀ·y = cᵀ·x`.
         multipliers: Vec<f64>,
     },
     /// The cost decreases without limit.
     Unbounded,
     /// There is no solution.
     Infeasible {
-        /// y with `Aᵀ·y ≤ 0` and `bᵀ·y > 0`.
+        /// A vector y with `Aᵀ·y ≤ 0` and `bᵀ·y > 0`.
         multipliers: Vec<f64>,
     },
 }
@@ -52,7 +52,7 @@ pub(crate) enum Outcome {
 pub(crate) fn minimise(program: &Program) -> Result<Outcome, Unclear> {
     let mut simplex = Simplex::new(program);
     let Some(vertex) = simplex.descend(Phase::Feasible)? else {
-        // A sum of numbers that are not negative has a minimum.
+        // A sum of non-negative numbers has a minimum.
         return Err(Unclear::Unproved);
     };
     let columns = program.columns.nrows();
@@ -151,7 +151,7 @@ impl<'p> Simplex<'p> {
         }
     }
 
-    /// Entry i of the column of a variable.
+    /// Returns entry i of the column of a variable.
     fn entry(&self, i: usize, variable: usize) -> f64 {
         match variable.checked_sub(self.lengths.len()) {
             None => self.program.columns[(variable, i)],
@@ -160,7 +160,7 @@ impl<'p> Simplex<'p> {
         }
     }
 
-    /// Length of the column of a variable.
+    /// Returns the length of the column of a variable.
     fn length(&self, variable: usize) -> f64 {
         self.lengths.get(variable).copied().unwrap_or(1.0)
     }
@@ -169,7 +169,7 @@ impl<'p> Simplex<'p> {
         variable >= self.lengths.len()
     }
 
-    /// Cost of a variable.
+    /// Returns the cost of a variable.
     fn cost(&self, variable: usize, phase: Phase) -> f64 {
         match (phase, self.is_artificial(variable)) {
             (Phase::Feasible, artificial) => f64::from(u8::from(artificial)),
@@ -220,8 +220,8 @@ impl<'p> Simplex<'p> {
         is_falling.then(|| reduced / self.lengths[variable])
     }
 
-    /// Returns the position of the basic variable that becomes zero first, if one decreases.
-    /// Artificial variables that are zero stay zero: they leave first.
+    /// Returns the position of the basic variable that becomes zero first, if a basic variable
+    /// decreases. Artificial variables that are zero leave first, so that they stay zero.
     fn leaving(&self, entering: usize, vertex: &mut Vertex) -> Result<Option<usize>, Unclear> {
         let column = self.program.columns.row(entering);
         let entry = |i: usize, j: usize| self.entry(i, self.basic[j]);
@@ -267,8 +267,9 @@ mod tests {
         minimise(&program).unwrap()
     }
 
-    /// E. M. L. Beale, Cycling in the dual simplex algorithm, Naval Res. Logist. Quart. 2 (1955)
-    /// 269–275: the rule of the steepest descent returns to its first basis.
+    /// The example is from E. M. L. Beale, Cycling in the dual simplex algorithm, Naval Res.
+    /// Logist. Quart. 2 (1955) 269–275. With the rule of the steepest descent, the search returns
+    /// to its first basis.
     #[test]
     fn the_search_ends_at_degenerate_vertices() {
         let columns: [&[f64]; 7] = [
@@ -291,7 +292,7 @@ mod tests {
 
     #[test]
     fn multipliers_prove_that_there_is_no_solution() {
-        // 2·x = −1 for x ≥ 0, and an equation that follows from the first.
+        // The equation 2·x = −1 for x ≥ 0, and an equation that follows from it.
         let outcome = solved(&[&[2.0, 4.0]], &[-1.0, -2.0], &[1.0]);
         let Outcome::Infeasible { multipliers: y } = outcome else {
             panic!("{outcome:?}");

@@ -10,23 +10,24 @@ use crate::limits::SUPPORT_ROUNDING;
 
 const POLYHEDRA: usize = 2000;
 
-/// Relative accuracy of values. The largest numbers are about 1e3, and vertices of integers up to 4
-/// multiply rounding errors by at most 1e4.
+/// Relative accuracy of values. The largest numbers are about 1e3. At vertices of integers up to 4,
+/// rounding errors are multiplied by at most 1e4.
 const TOLERANCE: f64 = 1e-9;
 
-/// A row of integers from −3 to 3.
+/// Returns a row of integers from −3 to 3.
 fn row(numbers: &mut Numbers, p: usize) -> Vec<i128> {
     (0..p).map(|_| numbers.below(7) as i128 - 3).collect()
 }
 
-/// `row·y + value ≥ 0` with integers: the row and, at its end, the value.
+/// The half space `row·y + value ≥ 0` with integers. The list contains the row and, at its end, the
+/// value.
 type Plane = Vec<i128>;
 
 fn dot(a: &[i128], b: &[i128]) -> i128 {
     a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
 
-/// A basis of the vectors of length n whose products with the rows are zero.
+/// Returns a basis of the vectors of length n whose products with the rows are zero.
 fn kernel(rows: &[&Plane], n: usize) -> Vec<Plane> {
     let coordinates = (0..n).map(|i| rows.iter().map(|row| row[i].into()).collect());
     let exact = Exact::of_whole(coordinates.collect());
@@ -38,14 +39,15 @@ fn kernel(rows: &[&Plane], n: usize) -> Vec<Plane> {
     exact.null_space().iter().map(whole).collect()
 }
 
-/// All points of a polyhedron: lines, and the extreme rays (y, t), orthogonal to the lines, of the
-/// cone `row·y + value·t ≥ 0`, `t ≥ 0`. Vertices are y/t; directions have t = 0.
+/// All points of a polyhedron. They are given by lines and by the extreme rays (y, t) of the cone
+/// `row·y + value·t ≥ 0`, `t ≥ 0`. The rays are orthogonal to the lines. Vertices are y/t, and
+/// directions have t = 0.
 struct Enumerated {
     lines: Vec<Plane>,
     rays: Vec<Plane>,
 }
 
-/// Ends of a range; `None` if the number changes without limit.
+/// The ends of a range; `None` if the number has no limit.
 type Ends = [Option<f64>; 2];
 
 impl Enumerated {
@@ -70,12 +72,12 @@ impl Enumerated {
         Self { lines, rays }
     }
 
-    /// Whether the points, if there are any, are not bounded.
+    /// Returns whether the polyhedron has points that are not bounded.
     fn is_unbounded(&self) -> bool {
         !self.lines.is_empty() || self.rays.iter().any(|ray| ray.last() == Some(&0))
     }
 
-    /// The range of `row·y + value`, if there are points.
+    /// Returns the range of `row·y + value`, or `None` if there are no points.
     fn range(&self, form: &Plane) -> Option<Ends> {
         let (p, mut ends) = (form.len() - 1, [None, None]);
         for ray in self.rays.iter().filter(|ray| ray[p] > 0) {
@@ -97,7 +99,7 @@ impl Enumerated {
     }
 }
 
-/// The largest s with `row·y + value − s ≥ 0`, if it is bounded.
+/// Returns the largest s with `row·y + value − s ≥ 0`, if s is bounded.
 fn depth(p: usize, planes: &[Plane]) -> Option<f64> {
     let deeper = planes.iter().map(|plane| {
         let mut plane = plane.clone();
@@ -110,7 +112,7 @@ fn depth(p: usize, planes: &[Plane]) -> Option<f64> {
     depth
 }
 
-/// All sets of k numbers below n.
+/// Returns all sets of k numbers below n.
 fn sets(n: usize, k: usize) -> Vec<Vec<usize>> {
     let Some(smaller) = k.checked_sub(1) else {
         return vec![Vec::new()];
@@ -124,16 +126,16 @@ fn sets(n: usize, k: usize) -> Vec<Vec<usize>> {
     (smaller..n).flat_map(with_last).collect()
 }
 
-/// How a polyhedron is built.
+/// The way in which a polyhedron is built.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Kind {
-    /// Any half spaces.
+    /// Any half spaces are used.
     Any,
-    /// Within a simplex.
+    /// The polyhedron is within a simplex.
     Bounded,
     /// All planes contain one point.
     Vertex,
-    /// Pairs of half spaces with one plane.
+    /// Pairs of half spaces have one common plane.
     Flat,
     /// Two of the half spaces exclude each other.
     Empty,
@@ -188,8 +190,8 @@ fn planes(kind: Kind, p: usize, numbers: &mut Numbers) -> Vec<Plane> {
     planes
 }
 
-/// A change of the data that does not change ranges: an orthogonal change of y, another order of
-/// the half spaces and another length of each row.
+/// A change of the data that does not change ranges. It consists of an orthogonal change of y,
+/// another order of the half spaces and another length of each row.
 struct Change {
     reflection: Vec<f64>,
     lengths: Vec<f64>,
@@ -238,7 +240,7 @@ fn sum(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
 
-/// Compares a range with its ends and with what proves them.
+/// Compares a range with its ends and with the proofs of the ends.
 fn check(
     range: &AdmissibleRange,
     ends: Ends,
@@ -379,8 +381,8 @@ fn ranges_are_those_of_enumerated_vertices() {
 /// Number of units of the values in a test with small differences.
 const FINE: i128 = 1 << 44;
 
-/// Half spaces that nearly have a common vertex or a common plane, with differences from the
-/// rounding of `f64` to 1e-6: answers may be undecided, but not wrong.
+/// Half spaces that nearly have a common vertex or a common plane. The differences are between the
+/// rounding of `f64` and 1e-6. Answers may be undecided, but they must not be wrong.
 #[test]
 fn small_differences_are_right_or_undecided() {
     let mut numbers = Numbers::new(2);
@@ -468,8 +470,9 @@ impl Plate {
         }
     }
 
-    /// The least and the largest push of each leg as shares of the load, from the plates on three
-    /// legs that do not fall. There are no shares if all legs are on one line.
+    /// Returns the least and the largest push of each leg as shares of the load. They are computed
+    /// from all plates on three legs that do not fall. There are no shares if all legs are on one
+    /// line.
     pub(crate) fn shares(&self) -> Option<Vec<Option<[f64; 2]>>> {
         let area = |a: [i128; 2], b: [i128; 2], c: [i128; 2]| {
             (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
@@ -494,7 +497,8 @@ impl Plate {
         stands.then_some(ends)
     }
 
-    /// Velocity of the plate at each leg, due to the velocity of the load and to two rotations.
+    /// Returns the velocity of the plate at each leg, due to the velocity of the load and due to
+    /// two rotations.
     fn motions(&self) -> Matrix {
         Matrix::from_fn(self.legs.len(), 3, |k, i| match i.checked_sub(1) {
             None => 1.0,
@@ -502,7 +506,8 @@ impl Plate {
         })
     }
 
-    /// One solution of the equations of the pushes, and an orthonormal basis of all changes.
+    /// Returns one solution of the equations of the pushes, and an orthonormal basis of all
+    /// changes.
     pub(crate) fn half_spaces(&self) -> Vec<HalfSpace> {
         let (motions, count) = (self.motions(), self.legs.len());
         let equations = motions.transpose();
@@ -516,7 +521,8 @@ impl Plate {
                 units.row(i - 3)
             };
             let mut row = original.to_vec();
-            // Twice, because the first pass leaves rounding errors.
+            // The products are subtracted twice, because rounding errors remain after the first
+            // pass.
             for direction in basis.iter().chain(&basis) {
                 let along = sum(&row, direction);
                 row.iter_mut()
@@ -552,8 +558,8 @@ pub(crate) const WEIGHT: f64 = 117.72;
 
 const PLATES: usize = 1000;
 
-/// Some loads are above a leg or above the line through two legs. If the load is outside the legs,
-/// a leg lifts, and no leg lifts otherwise.
+/// Some loads are above a leg or above the line through two legs. If the load is outside the
+/// polygon of the legs, a leg lifts. In all other cases, no leg lifts.
 #[test]
 fn pushes_of_plates_are_those_on_three_legs() {
     let mut numbers = Numbers::new(3);

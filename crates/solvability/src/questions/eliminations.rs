@@ -1,5 +1,5 @@
-//! Determines which rows may be deleted without a change of motion, by combining the sets of rows
-//! of the parts.
+//! Determines which rows may be deleted without changing the motion. The sets of rows of the parts
+//! are combined.
 
 use model::codes::Code;
 use std::borrow::Cow;
@@ -44,7 +44,7 @@ impl EliminationError {
 }
 
 impl Questions<'_> {
-    /// Returns the number of sets of rows that can be deleted without a change of motion. The
+    /// Returns the number of sets of rows that can be deleted without changing the motion. The
     /// number of rows in each set is the degree of redundancy.
     ///
     /// # Errors
@@ -98,7 +98,7 @@ impl Questions<'_> {
         Ok(sets)
     }
 
-    /// Returns the smallest deletions that make a reaction unique without a change of motion. The
+    /// Returns the smallest deletions that make a reaction unique without changing the motion. The
     /// deleted rows are in the part of the reaction.
     ///
     /// # Errors

@@ -6,13 +6,14 @@ use linalg::{Matrix, least_squares_step};
 
 use super::forms::Forms;
 
-/// Returns the largest number of listed branches: the number of solutions if all are simple.
+/// Returns the largest number of listed branches. This number is the number of solutions if all
+/// solutions are simple.
 fn most(forms: &Forms) -> usize {
     (1 << forms.y()) - 1
 }
 
-/// Returns unit vectors a with `aᵀ·M_s·a = 0` for all forms that differ from the motion itself, up
-/// to sign.
+/// Returns unit vectors a that satisfy `aᵀ·M_s·a = 0` for all forms. The vectors differ from the
+/// motion itself, up to sign.
 pub(super) fn others(forms: &Forms) -> Vec<Vec<f64>> {
     let mut found: Vec<Vec<f64>> = Vec::new();
     for start in 0..BRANCH_STARTS * most(forms) {
@@ -35,9 +36,9 @@ pub(super) fn others(forms: &Forms) -> Vec<Vec<f64>> {
     found
 }
 
-/// Returns a unit vector as starting point; no two starts are the same.
+/// Returns a unit vector as starting point. No two starting points are the same.
 pub(super) fn starting_point(n: usize, start: usize) -> Vec<f64> {
-    // Multiples of square roots of primes are evenly distributed in all directions together.
+    // Multiples of square roots of primes are evenly distributed in all directions.
     const PRIMES: [f64; 8] = [2.0, 3.0, 5.0, 7.0, 11.0, 13.0, 17.0, 19.0];
     let place = (start + 1) as f64;
     unit(

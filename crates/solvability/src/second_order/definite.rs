@@ -1,7 +1,7 @@
 //! Proves that no other velocity exists. The proof is a combination of the forms that does not
 //! contain the motion and is positive definite in the new motions, `Σ w_s·M_s = [0 0; 0 G]` with
-//! `yᵀ·G·y > 0`. Every solution then has y = 0. If y has one component, such a combination exists
-//! whenever no other velocity exists.
+//! `yᵀ·G·y > 0`. Every solution then has y = 0. If y has one component, such a combination always
+//! exists if no other velocity exists.
 
 use crate::limits::{BLOCKED_CORRECTIONS, FORM_NOISE, MARGIN};
 use linalg::Matrix;
@@ -46,8 +46,8 @@ fn combinations(decision: &rank::RankDecision) -> Vec<Vec<f64>> {
         .collect()
 }
 
-/// Performs the perceptron iteration: while a y with too small `yᵀ·G·y` exists, G moves towards the
-/// matrices that are positive for this y.
+/// Performs the perceptron iteration. As long as there is a y with too small `yᵀ·G·y`, G is moved
+/// towards the matrices that are positive for this y.
 pub(super) fn has_definite_combination(matrices: &[Matrix], n: usize) -> bool {
     let mut w: Vec<f64> = matrices
         .iter()
@@ -80,7 +80,8 @@ fn not_positive(mut g: Matrix) -> Option<Vec<f64>> {
     for j in 0..n {
         let pivot = g[(j, j)];
         if pivot <= 0.0 || pivot.is_nan() {
-            // Lᵀ·u = e_j has uᵀ·G·u = d_j; the factors of L are stored below the diagonal.
+            // The solution u of Lᵀ·u = e_j has uᵀ·G·u = d_j. The factors of L are stored below the
+            // diagonal.
             let mut u = vec![0.0; n];
             u[j] = 1.0;
             for i in (0..j).rev() {

@@ -1,9 +1,9 @@
 //! The second-order equations as quadratic forms `aᵀ·M_s·a = 0`, one for each self-stress.
 //!
-//! Γ is quadratic in the velocities and in the rate of time, 1. With `v = x₀·v_in + N·(x₁, y)` it
-//! becomes homogeneous in `a = (x₀, x₁, y)`. Here x₀ is the rate of time (only if there are
-//! functions of time), x₁ are the regular motions and y the new ones. Both are orthonormal in
-//! dimensionless velocities.
+//! Γ is quadratic in the velocities and in the rate of time, which is 1. With `v = x₀·v_in + N·(x₁,
+//! y)`, Γ becomes homogeneous in `a = (x₀, x₁, y)`. Here x₀ is the rate of time (only if there are
+//! functions of time), x₁ are the regular motions, and y are the new motions. The regular and the
+//! new motions are orthonormal in dimensionless velocities.
 
 use crate::limits::{FORM_ROUNDING, FORMS_MAX, REGULAR};
 use crate::pose::{dimensionless, evaluated, velocity_units};
@@ -14,7 +14,7 @@ use rank::{RankDecision, RankStatus};
 
 use super::undetermined::SecondOrderDoubt;
 
-/// The forms, divided by their largest coefficient.
+/// The quadratic forms, divided by their largest coefficient.
 pub(super) struct Forms {
     /// Number of coordinates x of the motion itself.
     x: usize,
@@ -145,9 +145,10 @@ impl Forms {
         sum
     }
 
-    /// Extracts the forms from values of Γ and returns the size of the summed terms. If this is
-    /// larger, it returns the size of the terms for bodies that all move as fast as the motions.
-    /// Computed velocities of bodies at rest are rounding, and so are their forms.
+    /// Extracts the forms from values of Γ and returns the size of the summed terms. The function
+    /// also computes the size of the terms for bodies that all move as fast as the motions, and
+    /// returns this size if it is larger. Computed velocities of bodies at rest are rounding, and
+    /// the forms of these bodies are rounding as well.
     fn evaluate(
         &mut self,
         mechanism: &Mechanism,
@@ -172,7 +173,7 @@ impl Forms {
         mechanism.twist(natural, s);
         mechanism.gamma(s);
         let mut terms = size_of(natural, s);
-        // The value z·Γ at zero velocity plus a sum of motions.
+        // The value z·Γ at the velocity zero plus a sum of motions.
         let mut values = |motions: &[(usize, f64)]| -> Vec<f64> {
             let mut v = origin.clone();
             for &(i, sign) in motions {
@@ -263,8 +264,9 @@ fn split(columns: &Matrix) -> Result<(Matrix, usize), SecondOrderDoubt> {
     }
 }
 
-/// Returns a basis of the left null space for the unscaled rows of C. Rows that are in no
-/// dependency are exactly zero. Otherwise their rounding would define a form that does not exist.
+/// Returns a basis of the left null space for the unscaled rows of C. Rows that belong to no
+/// dependency are exactly zero. Otherwise the rounding of these rows would define a form that does
+/// not exist.
 fn self_stresses(decision: &RankDecision) -> Vec<Vec<f64>> {
     let mut z = rank::orthonormal(decision);
     let none = rank::support_tolerance(decision);

@@ -1,9 +1,9 @@
-//! The conditions of second order that velocities with `C·v = 0` must satisfy while drives are
-//! locked.
+//! The conditions of second order that velocities with `C·v = 0` must satisfy if drives are locked.
 //!
-//! The velocities that no form contains are unrestricted: second order does not exclude them. The
-//! restricted velocities are orthogonal to the unrestricted ones. The velocities split into sets of
-//! bodies that joints connect, because self-stresses do. Each set is decided separately.
+//! Velocities that no quadratic form contains are unrestricted: they are not excluded at second
+//! order. The restricted velocities are orthogonal to the unrestricted velocities. The velocities
+//! are split into sets of bodies that joints connect, because self-stresses are split in the same
+//! way. Each set is decided separately.
 
 use crate::limits::{FORM_NOISE, OWN_SHARE};
 use linalg::{Matrix, PivotedQr, small_svd};
@@ -19,12 +19,13 @@ use crate::pose::velocity_units;
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub enum SecondOrder {
-    /// No combination of the velocities satisfies the second-order equations: no motion has such a
-    /// velocity.
+    /// No combination of the velocities satisfies the second-order equations. Therefore no motion
+    /// has such a velocity.
     Blocked,
-    /// Certain velocities satisfy the equations, also for slightly different coefficients.
+    /// Certain velocities satisfy the equations. Such velocities also exist for slightly different
+    /// coefficients.
     Free,
-    /// Neither statement is proved.
+    /// Neither result is proved.
     Undecided,
 }
 
@@ -38,7 +39,7 @@ pub struct RestrictedVelocities {
     /// A basis of the velocities, n_v values each, orthonormal in dimensionless form. The vectors
     /// of the basis are orthogonal to the velocities that no equation contains.
     pub velocities: Vec<Vec<f64>>,
-    /// The decision.
+    /// The result at second order.
     pub second_order: SecondOrder,
     /// The equations in coordinates of this basis, and the error of their coefficients.
     pub(crate) forms: Vec<Matrix>,
@@ -65,13 +66,13 @@ pub(crate) enum AccelerationVerdict {
     Possible,
     /// The acceleration does not satisfy the equations.
     Excluded,
-    /// Neither statement is proved.
+    /// Neither result is proved.
     Undecided,
 }
 
 impl RestrictedVelocities {
-    /// Returns the second-order result for an acceleration from rest with these coordinates, which
-    /// are not all zero.
+    /// Returns the second-order result for an acceleration from rest with these coordinates. The
+    /// coordinates must not all be zero.
     pub(crate) fn accelerated(&self, along: &[f64]) -> AccelerationVerdict {
         let length = along.iter().map(|x| x * x).sum::<f64>().sqrt();
         let a: Vec<f64> = along.iter().map(|x| x / length).collect();
@@ -90,8 +91,8 @@ impl RestrictedVelocities {
 }
 
 impl Restrictions {
-    /// Returns whether second order excludes every velocity; `None` if it does not decide. Without
-    /// free velocities, the result is that it excludes every velocity.
+    /// Returns whether every velocity is excluded at second order, or `None` if this is undecided.
+    /// Without free velocities, the result is that every velocity is excluded.
     #[must_use]
     pub fn exclude_all(&self) -> Option<bool> {
         let mut decisions = self.restricted.iter().map(|r| r.second_order);
@@ -107,7 +108,7 @@ impl Restrictions {
         decisions.all(|d| d == SecondOrder::Blocked).then_some(true)
     }
 
-    /// Returns a basis of the velocities with this result, n_v values each.
+    /// Returns a basis of the velocities with this second-order result, n_v values each.
     #[must_use]
     pub fn velocities(&self, second_order: SecondOrder) -> Vec<Vec<f64>> {
         let sets = self.restricted.iter();
@@ -175,8 +176,8 @@ fn sets(
             .iter()
             .flat_map(|&b| mechanism.space().columns_of(b))
             .collect();
-        // Part of each coordinate that moves these bodies, in coordinates of the forms. The sum
-        // over the sets is direct, so each singular value is one or zero.
+        // The part of each coordinate that moves these bodies, in coordinates of the forms. The sum
+        // over the sets is direct. Therefore each singular value is one or zero.
         let own = Matrix::from_fn(moving.len(), all.len(), |k, l| {
             columns.iter().map(|&j| moving[k][j] * all[l][j]).sum()
         });

@@ -1,10 +1,11 @@
-//! Describes why the second-order terms of the constraints do not decide whether the mechanism can
-//! move.
+//! Describes why the second-order terms of the constraints are not sufficient to decide whether the
+//! mechanism can move.
 
 use model::words::{rough, short};
 use rank::{Doubt, RankError};
 
-/// Reason why the second-order terms of the constraints do not decide whether a motion is possible.
+/// Reason why the second-order terms of the constraints are not sufficient to decide whether a
+/// motion is possible.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
@@ -20,7 +21,7 @@ pub enum SecondOrderDoubt {
     /// The number of regular motions is undecided.
     #[error("how many of the given regular motions are independent is undecided: {0}")]
     RegularCount(Doubt),
-    /// The regular motions exceed the range of numbers.
+    /// The regular motions are outside the range of numbers.
     #[error("the given regular motions cannot be compared: {0}")]
     Regular(RankError),
     /// All quadratic equations are zero.

@@ -3,13 +3,13 @@
 //! The first two of the three results are proofs. The proofs apply to every set of forms whose
 //! coefficients differ from the given ones by at most a stated error:
 //!
-//! - [`CommonZero::None`]: a combination of the forms is definite, or boxes cover the sphere and
-//!   some combination has no zero in each of them ([`covering`]).
+//! - [`CommonZero::None`]: a combination of the forms is definite, or boxes cover the sphere. In
+//!   each box, some combination of the forms has no zero ([`covering`]).
 //! - [`CommonZero::Transversal`]: an interval Newton test finds a zero at which the gradients of
 //!   the forms are independent ([`transversal`]).
-//! - [`CommonZero::Undecided`]: no proof. Examples are double zeros, and as many independent forms
-//!   as unknowns with a common zero. Arbitrarily small changes of the coefficients remove such
-//!   zeros.
+//! - [`CommonZero::Undecided`]: there is no proof. Examples are double zeros, and a common zero of
+//!   as many independent forms as unknowns. Arbitrarily small changes of the coefficients remove
+//!   such zeros.
 //!
 //! Source of the test: R. Krawczyk, Newton-Algorithmen zur Bestimmung von Nullstellen mit
 //! Fehlerschranken, Computing 4 (1969) 187–201.
@@ -30,17 +30,17 @@ use independent::Independent;
 pub enum CommonZero {
     /// The forms have no common zero.
     None,
-    /// The forms have a common zero near this unit vector, also with slightly different
-    /// coefficients.
+    /// The forms have a common zero near this unit vector. A zero also exists for slightly
+    /// different coefficients.
     Transversal(Vec<f64>),
     /// Neither the existence nor the absence of a common zero is proved within the error of the
     /// coefficients.
     Undecided,
 }
 
-/// Decides whether symmetric matrices M_s (d × d, finite) have a common zero a ≠ 0 of `aᵀ·M_s·a`,
-/// if each coefficient may be wrong by `error` (absolute; the forms are used as they are). Without
-/// forms, or if all of them are zero, no zero is transversal, and the result is undecided.
+/// Decides whether symmetric matrices M_s (d × d, finite) have a common zero a ≠ 0 of `aᵀ·M_s·a`.
+/// Each coefficient may be wrong by `error` (absolute; the forms are used as they are). If there
+/// are no forms, or if all forms are zero, no zero is transversal, and the result is undecided.
 ///
 /// ```
 /// use linalg::Matrix;
@@ -78,8 +78,8 @@ pub fn common_zero(forms: &[Matrix], error: f64) -> CommonZero {
     CommonZero::Undecided
 }
 
-/// Returns whether a test proves that the forms have a common zero near a, at which their gradients
-/// are independent.
+/// Returns whether a test proves that the forms have a common zero near a. The gradients of the
+/// forms must be independent at this zero.
 pub(super) fn is_transversal(forms: &[Matrix], error: f64, a: &[f64]) -> bool {
     transversal::is_proved(&Independent::of(forms, a.len(), error), a)
 }

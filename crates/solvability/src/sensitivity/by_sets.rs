@@ -1,8 +1,8 @@
-//! Computes how much reaction components, and sums of them, change when data change. A sum may
-//! contain components of several sets of connected bodies; each set is treated separately.
+//! Computes the changes of reaction components, and of sums of components, if data change. A sum
+//! may contain components of several sets of connected bodies. Each set is treated separately.
 //!
-//! A datum belongs to only one set, so the largest change of a sum by one datum is the largest
-//! change of the contribution of one set.
+//! A datum belongs to only one set. Therefore the largest change of a sum by one datum is the
+//! largest change of the contribution of one set.
 
 use model::{ConstraintId, Mechanism, System};
 
@@ -35,14 +35,15 @@ enum SetError {
     Equations(#[from] ChoiceError),
 }
 
-/// The largest change of each number, and reasons why some changes are not known.
+/// The largest change of each number, and the reasons why some changes are not known.
 pub(super) struct Changes {
     pub(super) each: Vec<Option<Change>>,
     pub(super) left_out: Vec<String>,
 }
 
-/// Returns the largest change of each number at time t, coordinates q and velocities v, one set of
-/// connected bodies after the other. The change is `None` if a share is not known.
+/// Returns the largest change of each number at time t, coordinates q and velocities v. The
+/// function treats one set of connected bodies after the other. The change is `None` if a share is
+/// not known.
 pub(super) fn changes(
     mechanism: &Mechanism,
     state: (f64, &[f64], &[f64]),
@@ -83,8 +84,8 @@ pub(super) fn changes(
     }
 }
 
-/// Returns, for each joint or drive, the indices of the reaction components and sums in which its
-/// reaction occurs.
+/// Returns, for each joint or drive, the indices of the reaction components and sums that contain
+/// the reaction of this joint or drive.
 fn by_joint(mechanism: &Mechanism, numbers: &[ReactionNumber]) -> Vec<Vec<usize>> {
     let mut of_joint = vec![Vec::new(); mechanism.layout().groups.len()];
     for (k, number) in numbers.iter().enumerate() {
@@ -97,8 +98,8 @@ fn by_joint(mechanism: &Mechanism, numbers: &[ReactionNumber]) -> Vec<Vec<usize>
     of_joint
 }
 
-/// Returns the ascending indices of the reaction components and sums in which a reaction of this
-/// part occurs.
+/// Returns the ascending indices of the reaction components and sums that contain a reaction of
+/// this part.
 fn within(extent: &Extent, part: &Mechanism, of_joint: &[Vec<usize>]) -> Vec<usize> {
     let groups = 0..part.layout().groups.len();
     let mut own: Vec<usize> = groups
@@ -125,7 +126,7 @@ fn of_set(
         return Err(SetError::Loads);
     }
     let kept = own_kept(kept, extent, part);
-    // The same components, with the joints numbered as in the set.
+    // The same components, in which the joints have the numbers of the set.
     let own: Vec<ReactionNumber> = wanted.iter().map(|&k| numbers[k].within(extent)).collect();
     let mut shares = if part.layout().rows() <= ROWS_MAX {
         let places: Vec<usize> = (0..own.len()).collect();
@@ -140,8 +141,8 @@ fn of_set(
     Ok(shares)
 }
 
-/// Returns the rows of the whole mechanism (ascending) that belong to this part, numbered in the
-/// part.
+/// Returns the rows of the whole mechanism (ascending) that belong to this part. The rows have the
+/// numbers of the part.
 fn own_kept(kept: &[usize], extent: &Extent, part: &Mechanism) -> Vec<usize> {
     let is_kept = |&row: &usize| kept.binary_search(&extent.row(row)).is_ok();
     (0..part.layout().rows()).filter(is_kept).collect()
@@ -175,8 +176,8 @@ fn of_joined(
     Ok(shares.map(share).collect())
 }
 
-/// Works like [`of_joined`], but separately for each part, with changes of the data of this part
-/// only. Parts that are too large are omitted.
+/// Works like [`of_joined`], but treats each part separately, and changes only data of this part.
+/// Parts that are too large are omitted.
 fn by_parts(
     joined: &JoinedBodies<'_>,
     t: f64,

@@ -1,7 +1,8 @@
-//! Solves the mechanism with a displaced datum near a limit position of its bodies, where the first
-//! order is not enough. There the smallest singular value of the kept rows approaches zero with the
-//! square root of the datum, and reactions grow with its inverse. The displacements of the bodies
-//! and the changes of the velocities are the smallest possible ones; loads are constant.
+//! Solves the mechanism with a displaced datum near a limit position of its bodies. Near a limit
+//! position the first order is not sufficient. The smallest singular value of the kept rows
+//! approaches zero with the square root of the datum, and reactions grow with the inverse of this
+//! singular value. The displacements of the bodies and the changes of the velocities are as small
+//! as possible. Loads are constant.
 
 use linalg::{KeptRowSaddle, Matrix, least_squares_step};
 use model::{ConstraintId, Mechanism, System};
@@ -26,9 +27,10 @@ pub(super) struct DisplacedEquations<'a> {
 }
 
 impl DisplacedEquations<'_> {
-    /// Returns the largest changes of numbers from these values on the path to other data. `data`
-    /// returns all numbers of the constraints after a share of the displacement; bodies follow in
-    /// several steps. Returns `None` if no configuration near the previous one satisfies the rows.
+    /// Returns the largest differences between numbers on the path to other data and these values.
+    /// `data` returns all numbers of the constraints after a share of the displacement. The bodies
+    /// follow in several steps. Returns `None` if no configuration near the previous configuration
+    /// satisfies the rows.
     pub(super) fn changes(
         &self,
         numbers: &[ReactionNumber],
@@ -47,7 +49,7 @@ impl DisplacedEquations<'_> {
             }
             rate = moved.max(FOLLOW_END) / (share - at);
             at = share;
-            // A number is largest where the displaced mechanism is nearest to a lower rank.
+            // A number is largest if the displaced mechanism is nearest to a lower rank.
             let there = self.solved(&displaced, &q, numbers)?;
             for (change, (there, value)) in changes.iter_mut().zip(there.iter().zip(values)) {
                 *change = change.max((there - value).abs());
@@ -70,7 +72,7 @@ impl DisplacedEquations<'_> {
         x.iter().all(|x| x.is_finite()).then_some(x)
     }
 
-    /// Moves coordinates onto the kept holonomic rows; returns the distance in sizes of the
+    /// Moves coordinates onto the kept holonomic rows. Returns the distance in sizes of the
     /// mechanism.
     fn follow(&self, mechanism: &Mechanism, q: &mut [f64]) -> Option<f64> {
         let m = mechanism.layout().m;

@@ -1,4 +1,4 @@
-//! Sensitivities of groups. The sensitivity of a sum is that of the sum as a whole, not that of its
+//! Sensitivities of groups. The sensitivity of a sum belongs to the sum as a whole, not to its
 //! terms.
 
 use model::Mechanism;
@@ -42,7 +42,7 @@ impl Analysis {
     /// and the sensitivities of all reactions.
     ///
     /// # Errors
-    /// Same errors as [`Self::sensitivities`].
+    /// Returns the same errors as [`Self::sensitivities`].
     pub fn group_sensitivities(
         &self,
         mechanism: &Mechanism,

@@ -1,6 +1,6 @@
 //! Computes how reaction components change with the configuration and the data if the multipliers
 //! are constant. The components change because the directions of the rows and the reference points
-//! of the joints move.
+//! of the joints change.
 
 use std::collections::BTreeMap;
 
@@ -19,7 +19,7 @@ pub(super) struct HeldSlopes {
     pub(super) by_data: Vec<(usize, f64)>,
 }
 
-/// A mechanism at an instant with its multipliers.
+/// A mechanism at an instant, and its multipliers.
 pub(super) struct HeldMultipliers<'a> {
     pub(super) mechanism: &'a Mechanism,
     pub(super) t: f64,
@@ -30,8 +30,8 @@ pub(super) struct HeldMultipliers<'a> {
 }
 
 impl HeldMultipliers<'_> {
-    /// Returns the derivatives of these numbers, by central differences of values at neighbouring
-    /// configurations and of mechanisms that store neighbouring data.
+    /// Returns the derivatives of these numbers. The derivatives are central differences of values
+    /// at neighbouring configurations, and of values of mechanisms that store neighbouring data.
     pub(super) fn slopes(
         &self,
         numbers: &[ReactionNumber],
@@ -91,8 +91,8 @@ impl HeldMultipliers<'_> {
         }
     }
 
-    /// Returns the derivatives with respect to the data of a joint, which change only its own
-    /// reaction.
+    /// Returns the derivatives with respect to the data of a joint. These data change only the
+    /// reaction of this joint.
     fn by_data(
         &self,
         numbers: &[ReactionNumber],
@@ -120,7 +120,8 @@ impl HeldMultipliers<'_> {
                 for place in block.numbers.clone() {
                     let [plus, minus] = [step, -step].map(|step| {
                         stored[place - first] = all[place] + step;
-                        // Axes rotate from their current position, so each value has its own copy.
+                        // Axes are rotated from their current position. Therefore each value has
+                        // its own copy.
                         let mut copy = self.mechanism.copy_of(ConstraintId(joint));
                         copy.set_numbers(&stored);
                         let reactions = self.mechanism.reactions(&s).with(&copy);
@@ -155,8 +156,8 @@ impl HeldMultipliers<'_> {
     }
 }
 
-/// Returns slopes between two lists of values of the same numbers, two steps apart; zeros are
-/// omitted.
+/// Returns slopes between two lists of values of the same numbers. The lists are two steps apart.
+/// Zeros are omitted.
 fn slopes(
     plus: Vec<(usize, f64)>,
     minus: Vec<(usize, f64)>,

@@ -36,7 +36,7 @@ pub(super) struct SolvedEquations<'a> {
     saddle: KeptRowSaddle,
     lambda: Vec<f64>,
     slopes: Slopes,
-    /// The equations with displaced data, if a configuration of lower rank is near.
+    /// The equations with displaced data, if a configuration with a lower rank is near.
     displaced: Option<DisplacedEquations<'a>>,
     /// Points, directions and numbers, with the displacement of each.
     blocks: Vec<(DataBlock, f64)>,
@@ -50,7 +50,7 @@ pub(super) struct SolvedEquations<'a> {
 struct Slopes {
     derivatives: model::Derivatives,
     by_data: DataGradients,
-    /// Factored kept rows of C, if the result depends on velocities, and of Φ, with columns in
+    /// Factored kept rows of C (only if the result depends on velocities) and of Φ. Columns are in
     /// velocity units.
     c: Option<KeptRowSaddle>,
     phi_q: KeptRowSaddle,
@@ -109,8 +109,8 @@ impl<'a> SolvedEquations<'a> {
         let mut load = largest_load(mechanism, &joined.force, &a, size);
         let (mut mass, mut force) = (mechanism.mass().to_vec(), joined.force.to_vec());
         if load <= LOAD_ROUNDING * largest_stop(mechanism, &v, size) {
-            // The bodies are at rest and have equal masses: without a load there is no reference
-            // for speed or mass.
+            // The bodies are at rest and have equal masses, because without a load there is no
+            // reference for speed or mass.
             v = Cow::Owned(vec![0.0; n]);
             mechanism.twist(&v, &mut s);
             gamma.fill(0.0);
@@ -202,8 +202,8 @@ impl<'a> SolvedEquations<'a> {
         Ok(changes)
     }
 
-    /// Includes the changes of the mechanisms with displaced data, the most influential data first.
-    /// Numbers that are sensitive to first order do not change.
+    /// Includes the changes of the mechanisms with displaced data. The most influential data come
+    /// first. Numbers that are sensitive to first order do not change.
     fn displace(
         &self,
         numbers: &[ReactionNumber],
@@ -285,7 +285,7 @@ impl<'a> SolvedEquations<'a> {
         let mut changed = changes.iter();
         let first = changed.position(|change| SAME_EFFECT * change >= largest);
         let by = first.filter(|_| largest > 0.0);
-        // The gradient is NaN if the equations are too nearly singular.
+        // The gradient is NaN if the equations are nearly singular.
         let is_known = changes.iter().all(|change| change.is_finite());
         Change {
             largest: if is_known { largest } else { f64::NAN },
@@ -336,13 +336,13 @@ impl<'a> SolvedEquations<'a> {
         }
         let slopes = &mut self.slopes;
         let d = &slopes.derivatives;
-        // Contribution through the velocities, which follow the data and the configuration.
+        // Contribution through the velocities, which change with the data and the configuration.
         if let Some(c) = &mut slopes.c {
             w.by_pose.fill(0.0);
             add_transposed(d.gamma_dv.iter(), &w.y_lambda, 1.0, &mut w.by_pose);
             multipliers(c, &w.by_pose, self.kept, &mut w.w_v);
         }
-        // Contribution through the configuration, which follows the data.
+        // Contribution through the configuration, which changes with the data.
         w.by_pose.fill(0.0);
         for &(column, slope) in &held.by_pose {
             w.by_pose[column] += slope;
@@ -361,10 +361,10 @@ impl<'a> SolvedEquations<'a> {
     }
 }
 
-/// The largest change of a number of reactions with one datum.
+/// The largest change of a number of reactions due to one datum.
 #[derive(Clone, Debug)]
 pub(super) struct Change {
-    /// The largest change; NaN if the equations are too nearly singular.
+    /// The largest change, or NaN if the equations are nearly singular.
     pub(super) largest: f64,
     /// The datum with the largest change; `None` if no datum changes the number.
     pub(super) by: Option<Datum>,
@@ -374,14 +374,14 @@ pub(super) struct Change {
     pub(super) load: f64,
 }
 
-/// A datum that moves in the direction in which it changes some numbers most.
+/// A datum that is displaced in the direction in which it changes some numbers most.
 struct Displacement {
     /// Indices of the numbers.
     numbers: Vec<usize>,
     block: usize,
     /// Direction of the displacement, a unit vector.
     by: [f64; 3],
-    /// The largest of their changes to first order, as a share.
+    /// The largest first-order change of these numbers, as a share.
     share: f64,
 }
 
@@ -403,12 +403,12 @@ fn datum(block: &DataBlock, moved: f64) -> Datum {
 }
 
 impl Change {
-    /// Returns the reference value of the share: the number, or the load.
+    /// Returns the reference value of the share, which is the number or the load.
     fn whole(&self) -> f64 {
         self.value.abs().max(self.load)
     }
 
-    /// Returns the change as a share; NaN if it is not known.
+    /// Returns the change as a share, or NaN if the change is not known.
     fn share(&self) -> f64 {
         match self.by {
             None if self.largest == 0.0 => 0.0,
@@ -416,7 +416,7 @@ impl Change {
         }
     }
 
-    /// Returns the change as a fraction; `None` if it is not known.
+    /// Returns the change as a fraction, or `None` if the change is not known.
     pub(super) fn relative(self) -> Option<Sensitivity> {
         let change = self.share();
         let by = self.by;
@@ -439,7 +439,7 @@ impl Change {
     }
 }
 
-/// Factors the first rows, which stay satisfied by the smallest motion if the data change. `solved`
+/// Factors the first rows, which the smallest motion keeps satisfied if the data change. `solved`
 /// contains factors of all rows.
 fn followed(
     rows: &SparseMatrix,
@@ -457,9 +457,9 @@ fn followed(
     Ok(saddle)
 }
 
-/// Computes `w` with `gᵀ·δx = −wᵀ·δr` for the smallest δx that compensates a change δr of the
-/// followed rows, the first of `kept`. Entries of other rows are left unchanged. The entries are
-/// NaN if the rows are too nearly dependent.
+/// Computes `w` with `gᵀ·δx = −wᵀ·δr`. Here δx is the smallest displacement that compensates a
+/// change δr of the followed rows, which are the first rows of `kept`. Entries of other rows are
+/// left unchanged. The entries are NaN if the rows are nearly dependent.
 fn multipliers(rows: &mut KeptRowSaddle, g: &[f64], kept: &[usize], w: &mut [f64]) {
     let (still, mut x) = (vec![0.0; rows.n_rows()], vec![0.0; g.len()]);
     let mut found = still.clone();
@@ -483,7 +483,7 @@ fn add_transposed(
     }
 }
 
-/// Returns the largest applied or inertial force on a body (N); torques are divided by the size.
+/// Returns the largest applied or inertial force on a body (N). Torques are divided by the size.
 /// Forces and torques count as vectors, because single components depend on the axes.
 fn largest_load(mechanism: &Mechanism, force: &[f64], a: &[f64], size: f64) -> f64 {
     let inertial: Vec<f64> = mechanism.mass().iter().zip(a).map(|(m, a)| m * a).collect();
@@ -509,9 +509,9 @@ fn is_near_limit(rows: &Matrix, units: &[f64]) -> bool {
     weakest.is_some_and(|weakest| weakest.sigma < NEAR_LIMIT)
 }
 
-/// Returns velocities of one unit: 1 m/s, and the rate that moves a point at the size of the
-/// mechanism as fast. The velocities are weights of motions and are not rounded, because a
-/// sensitivity must not depend on units.
+/// Returns velocities of one unit. The velocities are 1 m/s, and the rate that moves a point at the
+/// size of the mechanism by 1 m/s. The velocities are weights of motions and are not rounded,
+/// because a sensitivity must not depend on units.
 pub(super) fn units(mechanism: &Mechanism, size: f64) -> Vec<f64> {
     let kinds = mechanism.layout().column_kinds();
     let unit = |kind: &ColumnKind| match kind {
@@ -521,8 +521,8 @@ pub(super) fn units(mechanism: &Mechanism, size: f64) -> Vec<f64> {
     kinds.iter().map(unit).collect()
 }
 
-/// Returns the length to which manufacturing accuracy refers for the bodies of a joint (m): several
-/// times their reach, or infinity if the reach is not known.
+/// Returns the length (m) to which manufacturing accuracy refers for the bodies of a joint. The
+/// length is several times the reach of the bodies, or infinity if the reach is not known.
 fn piece(mechanism: &Mechanism, group: usize) -> f64 {
     let bodies = mechanism.layout().groups[group].bodies.iter();
     let reach = bodies
@@ -534,7 +534,8 @@ fn piece(mechanism: &Mechanism, group: usize) -> f64 {
     }
 }
 
-/// Returns the force (N) that would stop the fastest body within the size of the mechanism.
+/// Returns the force (N) that would stop the fastest body within a distance of the size of the
+/// mechanism.
 fn largest_stop(mechanism: &Mechanism, v: &[f64], size: f64) -> f64 {
     let kinds = mechanism.layout().column_kinds();
     let of = |((m, v), kind): ((&f64, &f64), &ColumnKind)| {

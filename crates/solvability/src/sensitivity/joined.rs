@@ -1,7 +1,7 @@
-//! Analyses bodies connected by joints set by set, so that a machine has the same result alone and
-//! among other machines.
+//! Analyses bodies connected by joints set by set. Therefore a machine has the same result alone
+//! and among other machines.
 //!
-//! Springs do not connect sets: the force of a spring is a load.
+//! Springs do not connect sets, because the force of a spring is a load.
 
 use std::borrow::Cow;
 
@@ -10,7 +10,7 @@ use model::{Mechanism, System};
 use crate::choices::Solution;
 use crate::parts::{Extent, Partition};
 
-/// A set of bodies with the joints between them, and the forces on it.
+/// A set of bodies, the joints between the bodies, and the forces on the set.
 pub(super) struct JoinedBodies<'a> {
     /// The mechanism of the set. The mechanism of a set has no forces, unless the set is the whole
     /// mechanism.
@@ -26,7 +26,7 @@ pub(super) struct JoinedBodies<'a> {
 
 impl JoinedBodies<'_> {
     /// Returns a part of the set with its own joints, given a solution of the whole set. The forces
-    /// of the other joints on its bodies become constant loads.
+    /// that the other joints exert on bodies of the part become constant loads.
     pub(super) fn of_part<'b>(
         &self,
         part: &'b Mechanism,
@@ -57,7 +57,7 @@ impl JoinedBodies<'_> {
     }
 }
 
-/// Returns the sets of joints and drives on bodies that they connect. Joints that move no body
+/// Returns the sets of joints and drives on the bodies that they connect. Joints that move no body
 /// belong to no set.
 fn sets(mechanism: &Mechanism) -> Partition {
     let groups = &mechanism.layout().groups;

@@ -1,5 +1,6 @@
 //! Numbers that are linear in the reactions: components, directions, sums, moments. Each number can
-//! be evaluated at any configuration and for any data, so it changes like the reported number.
+//! be evaluated at any configuration and for any data. Therefore it changes like the reported
+//! number.
 
 use std::collections::BTreeSet;
 
@@ -10,13 +11,15 @@ use model::{ConstraintId, Frame, Mechanism, Reaction, SpaceKind, System};
 use crate::groups::{Group, RequestError, unknown_component};
 use crate::parts::Extent;
 
-/// A number that is linear in the reactions of some joints and drives: the sum of its terms.
+/// A number that is linear in the reactions of some joints and drives. The number is the sum of its
+/// terms.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct ReactionNumber {
     terms: Vec<ReactionTerm>,
 }
 
-/// One reaction, multiplied by a fixed vector or resolved in axes that follow the configuration.
+/// One reaction, multiplied by a fixed vector, or resolved in axes that change with the
+/// configuration.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct ReactionTerm {
     joint: ConstraintId,
@@ -26,8 +29,8 @@ struct ReactionTerm {
 
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Kind {
-    /// `force·F + torque·T` with fixed directions; T is taken about a fixed point or about the
-    /// reference point.
+    /// The number `force·F + torque·T` with fixed directions. T is taken about a fixed point or
+    /// about the reference point.
     Along {
         force: [f64; 3],
         torque: [f64; 3],
@@ -35,13 +38,14 @@ enum Kind {
     },
     /// The named component of the definition.
     Named,
-    /// A component in axes that follow the configuration, as index of [`SpaceKind::components_in`].
+    /// A component in axes that change with the configuration, as index of
+    /// [`SpaceKind::components_in`].
     InFrame { frame: Frame, component: usize },
 }
 
 impl ReactionNumber {
-    /// Returns a component of a reaction by its name: one of the components of the space, or the
-    /// named component of the definition.
+    /// Returns a component of a reaction by its name. The component is one of the components of the
+    /// space, or the named component of the definition.
     ///
     /// # Errors
     /// [`RequestError::UnknownReaction`], [`RequestError::UnknownComponent`]
@@ -55,10 +59,10 @@ impl ReactionNumber {
         Ok(number)
     }
 
-    /// Returns `Σ direction[k]·component[k]`, with the components given by their names.
+    /// Returns `Σ direction[k]·component[k]`. The components are given by their names.
     ///
     /// # Errors
-    /// Same errors as [`Self::component`].
+    /// Returns the same errors as [`Self::component`].
     pub fn direction<'n>(
         mechanism: &Mechanism,
         id: ConstraintId,
@@ -84,7 +88,7 @@ impl ReactionNumber {
     }
 
     /// Returns a component of a reaction in a frame, given its index in
-    /// [`SpaceKind::components_in`]. The axes follow the configuration.
+    /// [`SpaceKind::components_in`]. The axes change with the configuration.
     #[must_use]
     pub fn in_frame(id: ConstraintId, frame: Frame, component: usize) -> Self {
         Self::of(id, 1.0, Kind::InFrame { frame, component })
@@ -94,7 +98,7 @@ impl ReactionNumber {
     /// moments about this fixed point. Groups of separate reactions and resultants have no numbers.
     ///
     /// # Errors
-    /// Same errors as [`Self::component`].
+    /// Returns the same errors as [`Self::component`].
     pub fn of_group(
         mechanism: &Mechanism,
         group: &Group,
@@ -188,7 +192,7 @@ impl ReactionNumber {
         Ok(())
     }
 
-    /// Returns the joints and drives of its terms, each once, ascending.
+    /// Returns the joints and drives of the terms, each once, ascending.
     pub(super) fn joints(&self) -> BTreeSet<usize> {
         self.terms.iter().map(|term| term.joint.0).collect()
     }
@@ -198,7 +202,7 @@ impl ReactionNumber {
         self.terms.len()
     }
 
-    /// Returns its terms that belong to a part, in the numbering of the part.
+    /// Returns the terms that belong to a part, in the numbering of the part.
     pub(super) fn within(&self, extent: &Extent) -> Self {
         let own = self.terms.iter().filter_map(|term| {
             let joint = ConstraintId(extent.own_group(term.joint.0)?);
@@ -209,8 +213,8 @@ impl ReactionNumber {
         }
     }
 
-    /// Returns the value of a load of 1 N in this number: 1 for forces, the size (m) for torques.
-    /// For several terms, it is the largest value.
+    /// Returns the value that a load of 1 N has in this number: 1 for forces, and the size (m) for
+    /// torques. For several terms, it is the largest value.
     pub(super) fn unit(&self, mechanism: &Mechanism, size: f64) -> f64 {
         let space = mechanism.space();
         let of = |term: &ReactionTerm| {
@@ -255,8 +259,8 @@ fn of_component(
     }
 }
 
-/// Returns whether the named component of a definition is a torque. If so, no row of the joint has
-/// a force in its reaction.
+/// Returns whether the named component of a definition is a torque. In this case, no row of the
+/// joint has a force in its reaction.
 fn turns(group: &model::reaction::ConstraintGroup) -> bool {
     !(0..group.rows.len()).any(|row| group.pushes(row))
 }

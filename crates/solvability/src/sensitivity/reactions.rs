@@ -1,5 +1,5 @@
-//! Sensitivities of the reactions of an analysed configuration: of every unique component and every
-//! unique direction.
+//! Sensitivities of the reactions of an analysed configuration. Every unique component and every
+//! unique direction has a sensitivity.
 
 use model::{ConstraintId, Layout, Mechanism, System};
 
@@ -19,8 +19,8 @@ pub struct ReactionSensitivities {
     /// Sensitivities of components by their names, as in [`crate::ComponentVerdict`]. The list
     /// includes the named component of the definition, such as `N` of a knife edge or `drive`.
     pub components: Vec<(&'static str, Sensitivity)>,
-    /// Sensitivities of [`ReactionVerdict::live_directions`]; `None` for a direction whose
-    /// sensitivity is not known.
+    /// Sensitivities of [`ReactionVerdict::live_directions`]. A value is `None` if the sensitivity
+    /// of the direction is not known.
     pub directions: Vec<Option<Sensitivity>>,
     /// Whether the reaction is unique as a whole.
     pub is_whole: bool,
@@ -41,7 +41,7 @@ impl ReactionSensitivities {
         components.reduce(|a, b| if b.change > a.change { b } else { a })
     }
 
-    /// Returns whether all components that change at all are sensitive to data.
+    /// Returns whether all components that change are sensitive to data.
     fn is_all_fragile(&self) -> bool {
         let mut components = self.components.iter();
         components.all(|(_, s)| s.is_fragile() || s.by.is_none())
@@ -61,7 +61,7 @@ pub struct Sensitivities {
 }
 
 impl Sensitivities {
-    /// Creates unknown sensitivities for this number of joints and drives; the sentence is the
+    /// Creates unknown sensitivities for this number of joints and drives. The sentence states the
     /// reason.
     #[must_use]
     pub fn unknown(reactions: usize, reason: Option<String>) -> Self {
@@ -71,16 +71,16 @@ impl Sensitivities {
         }
     }
 
-    /// Returns the sensitivity of a component of a reaction: a component of the space, or the named
-    /// component of the definition. Returns `None` if the component is not unique, or identically
-    /// zero, or if its sensitivity is not known.
+    /// Returns the sensitivity of a component of a reaction, which is a component of the space or
+    /// the named component of the definition. Returns `None` if the component is not unique or is
+    /// identically zero, or if its sensitivity is not known.
     #[must_use]
     pub fn component(&self, id: ConstraintId, name: &str) -> Option<&Sensitivity> {
         self.each.get(id.0)?.component(name)
     }
 
-    /// Returns the largest sensitivity of the unique components of a reaction. `None` if there is
-    /// no sensitivity.
+    /// Returns the largest sensitivity of the unique components of a reaction, or `None` if there
+    /// is no sensitivity.
     #[must_use]
     pub fn reaction(&self, id: ConstraintId) -> Option<&Sensitivity> {
         self.each.get(id.0)?.largest()
@@ -104,7 +104,7 @@ impl Sensitivities {
 
     /// Returns sentences on the components that are sensitive to data. One sentence covers all
     /// reactions and components whose largest change comes from the same point. The name of a
-    /// reaction without a component stands for all of its components.
+    /// reaction without a component denotes all of its components.
     #[must_use]
     pub fn sentences(&self, layout: &Layout) -> Vec<String> {
         let fragile = self.fragile().map(|(id, _)| id);
@@ -114,14 +114,14 @@ impl Sensitivities {
         )
     }
 
-    /// Returns these sentences for one joint or drive.
+    /// Returns the sentences for one joint or drive.
     #[must_use]
     pub fn sentences_of(&self, id: ConstraintId, layout: &Layout) -> Vec<String> {
         sentences(self.fragile_names(id, layout), layout)
     }
 
-    /// Returns the sensitive quantities, with names for sentences: the reaction with all its
-    /// components, or only some components.
+    /// Returns the sensitive quantities, with names for sentences. A quantity is the reaction with
+    /// all its components, or only some components.
     fn fragile_names(&self, id: ConstraintId, layout: &Layout) -> Vec<(String, Sensitivity)> {
         let Some(all) = self.each.get(id.0) else {
             return Vec::new();
@@ -177,13 +177,13 @@ enum NumberKey {
 }
 
 impl Analysis {
-    /// Computes how strongly each unique component and direction depends on the data, at the
-    /// configuration of the analysis and velocities v that satisfy the constraints. Each set of
-    /// bodies connected by joints and drives is examined separately, with its own size and loads,
-    /// on the `rayon` thread pool of the caller. In sets with too many rows for dense matrices,
-    /// each part on common cycles is examined with its own data and size, under the loads from the
-    /// rest of the set. Parts that are themselves too large, or whose rank is undecided, are
-    /// omitted.
+    /// Computes how strongly each unique component and direction depends on the data. The
+    /// configuration is that of the analysis, and the velocities v must satisfy the constraints.
+    /// Each set of bodies connected by joints and drives is examined separately, with its own size
+    /// and loads, on the `rayon` thread pool of the caller. If a set has too many rows for dense
+    /// matrices, each of its parts on common cycles is examined with its own data and size, under
+    /// the loads from the rest of the set. Parts are omitted if they are too large or if their rank
+    /// is undecided.
     ///
     /// # Errors
     /// [`ChoiceError::Request`]: q or v do not fit the mechanism.
@@ -221,11 +221,11 @@ impl Analysis {
         Ok(all)
     }
 
-    /// Returns the sensitivity of each of these numbers, which must be unique; `None` if it is not
-    /// known.
+    /// Returns the sensitivity of each of these numbers, which must be unique. The result is `None`
+    /// if the sensitivity is not known.
     ///
     /// # Errors
-    /// Same errors as [`Self::sensitivities`].
+    /// Returns the same errors as [`Self::sensitivities`].
     pub fn sensitivities_of(
         &self,
         mechanism: &Mechanism,
@@ -257,7 +257,8 @@ impl Analysis {
 }
 
 impl ReactionSensitivities {
-    /// Adds the directions along one component, which have its sensitivity.
+    /// Adds the directions along one component. These directions have the sensitivity of this
+    /// component.
     fn take_aligned(&mut self, reaction: &ReactionVerdict) {
         let directions = reaction.live_directions.as_deref().unwrap_or_default();
         if self.components.is_empty() && self.directions.is_empty() {
@@ -272,8 +273,8 @@ impl ReactionSensitivities {
     }
 }
 
-/// Returns the component that is parallel to a direction of a reaction, if there is such a
-/// component.
+/// Returns the component that is parallel to a direction of a reaction, or `None` if there is no
+/// such component.
 fn aligned(reaction: &ReactionVerdict, direction: &[f64]) -> Option<&'static str> {
     let mut terms = direction.iter().zip(&reaction.components);
     let (_, component) = terms.find(|(x, _)| **x != 0.0)?;
@@ -281,9 +282,9 @@ fn aligned(reaction: &ReactionVerdict, direction: &[f64]) -> Option<&'static str
     is_alone.then_some(component.name)
 }
 
-/// Returns the unique scalar components of a reaction. They are components along the axes, the
-/// named component of the definition of the joint, and components along unique directions that are
-/// not parallel to an axis.
+/// Returns the unique scalar components of a reaction. The scalar components are components along
+/// the axes, the named component of the definition of the joint, and components along unique
+/// directions that are not parallel to an axis.
 fn numbers_of(
     mechanism: &Mechanism,
     reaction: &ReactionVerdict,

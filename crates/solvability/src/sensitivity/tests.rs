@@ -14,7 +14,7 @@ use crate::sketch::{GROUND, Kind, Sketch, Z};
 use crate::value::{Sensitivity, change_in_words};
 use joints::space3::Pose;
 
-/// Sensitivities of all reactions, all of which are unique.
+/// Returns the sensitivities of all reactions. All reactions must be unique.
 fn known(mechanism: &Mechanism, t: f64, q: &[f64], v: &[f64]) -> Vec<Sensitivity> {
     let analysis = crate::analyse(mechanism, t, q).expect("finite");
     let all = analysis.sensitivities(mechanism, q, v).expect("fits");
@@ -23,8 +23,8 @@ fn known(mechanism: &Mechanism, t: f64, q: &[f64], v: &[f64]) -> Vec<Sensitivity
         .collect()
 }
 
-/// A beam of 2 m and 10 N between a pin and a roller, its mass centre at a quarter of the length
-/// from the pin: the roller carries W·c/L.
+/// Returns a beam of 2 m and 10 N between a pin and a roller. The distance of its mass centre from
+/// the pin is a quarter of the length. The load on the roller is W·c/L.
 fn beam() -> Mechanism {
     let mut d = Description::new("beam");
     d.gravity = [0.0, -10.0];
@@ -46,8 +46,8 @@ fn beam() -> Mechanism {
     Mechanism::build(&d).expect("it builds")
 }
 
-/// The derivatives are dR/dL = −W·c/L², and dR/da = −W·(L − c)/L² if the pin moves along the beam:
-/// 3/8 of the weight per metre. The point moves by 0.2 mm.
+/// The derivatives are dR/dL = −W·c/L², and dR/da = −W·(L − c)/L² if the pin moves along the beam.
+/// This is 3/8 of the weight per metre. The point moves by 0.2 mm.
 #[test]
 fn a_beam_by_hand() {
     let mechanism = beam();
@@ -69,8 +69,8 @@ fn a_beam_by_hand() {
     }
 }
 
-/// A beam on two rollers rolls along them with 1 m/s. A weight of a ten-millionth of the load that
-/// would stop the beam has the same relative sensitivity as any other weight.
+/// A beam on two rollers moves along the rollers with 1 m/s. Its weight is a ten-millionth of the
+/// load that would stop the beam. The relative sensitivity is the same as for any other weight.
 #[test]
 fn a_small_load_beside_a_fast_motion_is_a_load() {
     for gravity in [10.0, 1e-7] {
@@ -92,8 +92,8 @@ fn a_small_load_beside_a_fast_motion_is_a_load() {
     }
 }
 
-/// Data of a crank of 0.3 m with a rod of 0.8 m whose end moves on an oblique line. Each pair is a
-/// point or a direction.
+/// Data of a crank of 0.3 m with a rod of 0.8 m. The end of the rod moves on an oblique line. Each
+/// pair is a point or a direction.
 const POINTS: [[f64; 2]; 6] = [
     [0.02, -0.01], // A on the ground
     [-0.15, 0.0],  // A on the crank
@@ -106,8 +106,8 @@ const POINTS: [[f64; 2]; 6] = [
 /// Direction of the line (rad).
 const LINE: f64 = 0.2;
 
-/// A driven crank. Its start is rotated by `turned`, so that the configuration is determined at
-/// each time.
+/// Returns a driven crank. The start of the crank is rotated by `turned`, so that the configuration
+/// is determined at each time.
 fn slider_crank(points: [[f64; 2]; 6], line: f64, turned: f64) -> Mechanism {
     let mut d = Description::new("slider-crank");
     d.gravity = [0.3, -9.81];
@@ -136,7 +136,7 @@ fn slider_crank(points: [[f64; 2]; 6], line: f64, turned: f64) -> Mechanism {
     Mechanism::build(&d).expect("it builds")
 }
 
-/// Solves `A·x = b`, or `Aᵀ·x = b`, by elimination with exchanges.
+/// Solves `A·x = b` or `Aᵀ·x = b` by elimination with exchanges.
 fn solved(a: &Matrix, b: &[f64], transposed: bool) -> Vec<f64> {
     let n = b.len();
     let entry = |i, j| if transposed { a[(j, i)] } else { a[(i, j)] };
@@ -159,8 +159,8 @@ fn solved(a: &Matrix, b: &[f64], transposed: bool) -> Vec<f64> {
     (0..n).map(|i| m[(i, n)] / m[(i, i)]).collect()
 }
 
-/// State and reactions (force, torque) at a time, by Newton's method from the described
-/// configuration and two square systems.
+/// Returns the state and the reactions (force, torque) at a time. They are computed by Newton's
+/// method from the described configuration, and from two square systems.
 fn reactions(mechanism: &Mechanism, t: f64) -> (Vec<f64>, Vec<f64>, Vec<[f64; 3]>) {
     let layout = mechanism.layout();
     let mut s = mechanism.scratch();
@@ -197,9 +197,9 @@ fn reactions(mechanism: &Mechanism, t: f64) -> (Vec<f64>, Vec<f64>, Vec<[f64; 3]
     (q, v, each)
 }
 
-/// Computes the largest change of a component of each reaction due to one pair of numbers that
-/// moves by 1e-4 of the size, or a direction that rotates by 1e-4 rad. The reference uses central
-/// differences of mechanisms built with other numbers, at rest and moving.
+/// Computes the largest change of a component of each reaction due to one pair of numbers. The pair
+/// is a point that moves by 1e-4 of the size, or a direction that rotates by 1e-4 rad. The
+/// reference uses central differences of mechanisms built with other numbers, at rest and moving.
 #[test]
 fn sensitivities_are_those_of_mechanisms_built_with_other_numbers() {
     const H: f64 = 1e-6;
@@ -240,7 +240,7 @@ fn sensitivities_are_those_of_mechanisms_built_with_other_numbers() {
                 }
             }
         }
-        // The reference load: weights, and inertia forces of the bodies.
+        // The reference load consists of weights and of inertia forces of the bodies.
         let load = load(&mechanism, t, &q, &v, size);
         for id in mechanism.layout().constraint_ids() {
             let group = &mechanism.layout().groups[id.0];
@@ -259,7 +259,7 @@ fn sensitivities_are_those_of_mechanisms_built_with_other_numbers() {
     }
 }
 
-/// The largest applied or inertial force.
+/// Returns the largest applied force or inertia force.
 fn load(mechanism: &Mechanism, t: f64, q: &[f64], v: &[f64], size: f64) -> f64 {
     let mut s = mechanism.scratch();
     mechanism.pose(t, q, &mut s);
@@ -364,9 +364,9 @@ fn sentences_are_for_people() {
     }
 }
 
-/// A door in space: the hinge carries its weight, and a moment of the weight times its width. The
-/// change due to one moved point, as a share of both and in the axes of the door, depends neither
-/// on the axes of the ground nor on the unit of length.
+/// A door in space. The hinge supports the weight of the door and the moment of the weight about
+/// the hinge. The change due to one moved point is expressed as a share of both, in the axes of the
+/// door. This share depends neither on the axes of the ground nor on the unit of length.
 #[test]
 fn in_space_moments_are_compared_with_forces_by_the_size() {
     let turns = [
@@ -376,7 +376,7 @@ fn in_space_moments_are_compared_with_forces_by_the_size() {
         [0.8, -0.4, 0.2, 0.4],
     ];
     let mut changes: Vec<Vec<f64>> = Vec::new();
-    // The smallest motion that follows the data has rotations in units of a power of two.
+    // The smallest motion that follows from the data has rotations in units of a power of two.
     for length in [1.0, 1024.0, 1.0 / 1024.0] {
         for turn in turns {
             let moved = Pose::new([0.0; 3], turn);
@@ -405,8 +405,9 @@ fn in_space_moments_are_compared_with_forces_by_the_size() {
     assert!(changes.iter().all(are_same), "{changes:?}");
 }
 
-/// The load of a force that calls a function is constant, so no derivative of it is needed. If it
-/// has no value, sensitivities are omitted with the reason, and the verdicts do not change.
+/// The load of a force that calls a function is constant, so no derivative of this load is needed.
+/// If the force has no value, sensitivities are omitted, the reason is stated, and the verdicts do
+/// not change.
 #[test]
 fn a_called_force_is_a_load() {
     let of = |torque: f64| {
@@ -434,9 +435,9 @@ fn a_called_force_is_a_load() {
     assert!(why.ends_with("the applied forces are not finite"), "{why}");
 }
 
-/// A plate on two pins half a millimetre apart, with its mass centre at a distance of one metre.
-/// Neither pin is unique, but the vertical force of each pin is unique: W·c/e, with a relative
-/// change of moved/e. Their sum is the weight, for any data.
+/// A plate on two pins half a millimetre apart. The distance of its mass centre is one metre.
+/// Neither pin is unique, but the vertical force of each pin is unique. It is W·c/e, with a
+/// relative change of moved/e. The sum of the vertical forces is the weight, for any data.
 #[test]
 fn a_component_may_be_fragile_alone() {
     let (apart, arm, weight) = (5e-4, 1.0, 10.0);
@@ -483,8 +484,8 @@ fn a_component_may_be_fragile_alone() {
     assert!(found.change < 1e-6, "{found:?}");
 }
 
-/// A body that is suspended from a guide and a stiff spring of given free length. The tension of
-/// the spring is a load, and the guide is determined as well as without the spring.
+/// A body that is suspended from a guide and from a stiff spring with a given free length. The
+/// tension of the spring is a load. The guide is determined as well as it is without the spring.
 #[test]
 fn a_stiff_spring_makes_no_tree_fragile() {
     for stiffness in [1e3, 1e9] {
@@ -507,8 +508,8 @@ fn a_stiff_spring_makes_no_tree_fragile() {
     }
 }
 
-/// Two bodies in free fall with a hinge between them: its reaction is zero for any position of its
-/// points.
+/// Two bodies in free fall with a hinge between them. The reaction of the hinge is zero for any
+/// position of its points.
 #[test]
 fn a_reaction_of_zero_does_not_change() {
     let mut d = Description::new("falling");
@@ -531,9 +532,9 @@ fn a_reaction_of_zero_does_not_change() {
     assert!(each[0].change < 1e-12, "{each:?}");
 }
 
-/// A bob on two bars of length ℓ that hang lower than their pins by s: each bar carries
+/// A bob on two bars of length ℓ hangs lower than the pins of the bars by s. Each bar carries
 /// m·g·ℓ/(2·s), and s² = ℓ² − c² for pins at a distance of 2·c. If a pin moves by 0.2 mm, the force
-/// of bars with a sag of 3.5 cm increases by 9.3 %; the first order gives 8.2 %.
+/// of bars with a sag of 3.5 cm increases by 9.3 %. The first order gives 8.2 %.
 #[test]
 fn near_its_limit_a_reaction_changes_by_more_than_first_order() {
     for sag in [0.033, 0.034, 0.035] {

@@ -51,7 +51,8 @@ impl Stretches {
         stretches
     }
 
-    /// Returns the verdicts on the joints and drives of a part, in its numbering, without groups.
+    /// Returns the verdicts on the joints and drives of a part, in the numbering of the part,
+    /// without groups.
     pub(crate) fn of_part(&self, extent: &Extent, groups: usize) -> Self {
         let own = (0..groups).map(|own| ReactionStretches {
             id: ConstraintId(own),
@@ -70,14 +71,14 @@ impl Stretches {
         own.flat_map(|reaction| reaction.components.iter().map(|(_, track)| track))
     }
 
-    /// Returns mutable verdicts on all components. [`Self::sum_up`] recomputes from them the
-    /// verdicts on joints and drives.
+    /// Returns mutable verdicts on all components. [`Self::sum_up`] recomputes the verdicts on
+    /// joints and drives from these verdicts.
     pub(crate) fn components_mut(&mut self) -> impl Iterator<Item = &mut VerdictTrack> {
         let own = self.reactions.iter_mut();
         own.flat_map(|reaction| reaction.components.iter_mut().map(|(_, track)| track))
     }
 
-    /// Returns the verdicts on joints and drives on the intervals that contain this time; `None`
+    /// Returns the verdicts on joints and drives on the intervals that contain this time, or `None`
     /// outside the motion.
     ///
     /// ```
@@ -109,8 +110,8 @@ impl Stretches {
         (from <= t && t <= to).then(|| self.reactions.iter().map(of).collect())
     }
 
-    /// Copies the verdicts of some of the joints and drives to their indices in the whole
-    /// mechanism. A group of a part contains a share of a group of the whole mechanism.
+    /// Copies the verdicts of some of the joints and drives to the indices that these have in the
+    /// whole mechanism. A group of a part contains a share of a group of the whole mechanism.
     pub fn take(&mut self, own: &Self, places: &[usize], shares: &[usize]) {
         for (found, &place) in own.reactions.iter().zip(places) {
             self.reactions[place] = ReactionStretches {

@@ -1,11 +1,11 @@
-//! Determines the verdicts at instants of a motion on kept rows, from the factors that the
-//! simulation has computed.
+//! Determines the verdicts at instants of a motion on kept rows. The factors of these rows have
+//! already been computed by the simulation.
 //!
-//! The rank is that of the current motion and is not decided again. Factored kept rows give vectors
-//! of the left null space. The accuracy of these vectors follows from the last full decision, which
-//! uses the accuracy of the motion. Verdicts that the vectors leave undecided are decided in full
-//! at the first, second, fourth, eighth … of these instants in an interval. The other instants give
-//! no verdict on these numbers.
+//! The rank is the rank of the current motion and is not decided again. Factored kept rows give
+//! vectors of the left null space. The accuracy of these vectors is computed from the last full
+//! decision, which uses the accuracy of the motion. If the vectors leave verdicts undecided, these
+//! verdicts are decided in full at the first, second, fourth, eighth … of these instants in an
+//! interval. The other instants give no verdict on these numbers.
 
 use std::borrow::Cow;
 
@@ -32,7 +32,7 @@ pub struct CarriedVerdicts<'m> {
     /// Length that makes C dimensionless (m).
     size: f64,
     accuracy: ConfigurationAccuracy,
-    /// Accuracy of the configuration at the start, which is stored.
+    /// Accuracy of the configuration at the start. This configuration is exact as stored.
     at_start: ConfigurationAccuracy,
     parts: Vec<OpenPart<'m>>,
     groups: Vec<Group>,
@@ -54,7 +54,7 @@ struct OpenPart<'m> {
     /// Accuracy of vectors of the left null space, from the last full decision for the accuracy of
     /// the motion.
     known: Option<Accuracy>,
-    /// Number of states since the last interval boundary at which these vectors left a number
+    /// Number of states since the last interval boundary at which the vectors left a number
     /// undecided.
     open: usize,
 }
@@ -64,12 +64,12 @@ struct Accuracy {
     known: matrices::RowAccuracy,
     /// The smallest singular value of the equilibrated rows.
     sigma: f64,
-    /// Factors of the columns of the mechanism in the equilibrated rows; zero for columns of other
-    /// parts.
+    /// Factors of the columns of the mechanism in the equilibrated rows. The factor is zero for
+    /// columns of other parts.
     columns: Vec<f64>,
 }
 
-/// A state of the motion, and vectors of the left null space of C there.
+/// A state of the motion, and vectors of the left null space of C at this state.
 pub struct CarriedState<'s> {
     /// Time (s).
     pub t: f64,
@@ -77,15 +77,16 @@ pub struct CarriedState<'s> {
     pub q: &'s [f64],
     /// Scratch in which Φ and C have been evaluated at this state.
     pub scratch: &'s Scratch,
-    /// Dependencies of the rows of C, `Cᵀ·z = 0`, over all rows in SI units: one for each dropped
-    /// row, or [`crate::CARRIED_VECTORS`] sums of them with random weights.
+    /// Dependencies of the rows of C, `Cᵀ·z = 0`, over all rows in SI units. There is one
+    /// dependency for each dropped row, or [`crate::CARRIED_VECTORS`] sums of dependencies with
+    /// random weights.
     pub dependencies: &'s [Vec<f64>],
 }
 
 impl<'m> CarriedVerdicts<'m> {
-    /// Prepares verdicts for a motion from the coordinates q at time t that drops these rows. The
-    /// motion is integrated with a relative tolerance. Returns `None` if no row is dropped, because
-    /// everything is then unique.
+    /// Prepares verdicts for a motion that begins at time t with the coordinates q and drops these
+    /// rows. The motion is integrated with a relative tolerance. Returns `None` if no row is
+    /// dropped, because all numbers are then unique.
     #[must_use]
     pub fn new(
         mechanism: &'m Mechanism,
@@ -124,13 +125,15 @@ impl<'m> CarriedVerdicts<'m> {
         Some(carried)
     }
 
-    /// Omits instants that differ from their interval, such as the start. The verdicts at these
-    /// instants have only the accuracy of the motion, and are used for the next instants.
+    /// Omits instants whose verdicts differ from the verdict on their interval, such as the start.
+    /// The verdicts at these instants have only the accuracy of the motion, and are used for the
+    /// next instants.
     pub fn leave_out_instants(&mut self) {
         self.at_start = self.accuracy;
     }
 
-    /// Adds the verdicts at a state. If C cannot be analysed, they are undecided, with the reason.
+    /// Adds the verdicts at a state. If C cannot be analysed, the verdicts are undecided, and the
+    /// reason is recorded.
     pub fn look(&mut self, at: &CarriedState<'_>, looked: InstantOrder) {
         let verdicts = self.verdicts(at).unwrap_or_else(|error| {
             let reason = error.to_string();
@@ -139,8 +142,8 @@ impl<'m> CarriedVerdicts<'m> {
         self.recorder.see(at.t, looked, verdicts);
     }
 
-    /// Returns the joints and drives with neither a determined force nor a determined torque at the
-    /// last state. Components that are zero under any load are ignored.
+    /// Returns the joints and drives for which neither the force nor the torque was determined at
+    /// the last state. Components that are zero under any load are ignored.
     #[must_use]
     pub fn without_determined(&self) -> Vec<ConstraintId> {
         let layout = self.mechanism.layout();
@@ -171,15 +174,15 @@ impl<'m> CarriedVerdicts<'m> {
         !all.all(is_decided)
     }
 
-    /// Adds a state without verdicts on its interval, because the rank drops there.
+    /// Adds a state without verdicts on its interval, because the rank drops at this state.
     pub fn pass(&mut self, t: f64, looked: InstantOrder) {
         let nothing = vec![None; self.recorder.numbers()];
         self.recorder.see(t, looked, nothing);
     }
 
-    /// Returns the verdicts at one instant on the components of the parts with redundant rows; the
-    /// other verdicts are unique. The verdicts are not recorded. Without a state, the rank is lower
-    /// at the instant, and the verdicts are undecided.
+    /// Returns the verdicts at one instant on the components of the parts with redundant rows. All
+    /// other numbers are unique. The verdicts are not recorded. If no state is given, the rank is
+    /// lower at the instant, and the verdicts are undecided.
     pub fn components_at(
         &mut self,
         at: Option<&CarriedState<'_>>,
@@ -299,7 +302,7 @@ enum JudgedNumber {
 }
 
 impl OpenPart<'_> {
-    /// Returns the verdicts on its numbers at a state.
+    /// Returns the verdicts on the numbers of the part at a state.
     fn verdicts(
         &mut self,
         whole: &Mechanism,
@@ -315,8 +318,8 @@ impl OpenPart<'_> {
             if found.iter().all(Verdict::is_decided) {
                 return Ok(found.into_iter().map(Some).collect());
             }
-            // A full decision takes as long as many steps, so the distance between these decisions
-            // increases.
+            // A full decision takes as long as many steps. Therefore the distance between full
+            // decisions increases.
             self.open += 1;
             if !self.open.is_power_of_two() {
                 let told = found.into_iter().map(|v| v.is_decided().then_some(v));
@@ -326,9 +329,9 @@ impl OpenPart<'_> {
         self.decided(whole, at, known, forms)
     }
 
-    /// Returns the verdicts of a full decision at a state. Each verdict is `None` if the rank there
-    /// differs from that of the motion: the instant is then a singular configuration and has no
-    /// verdict on its interval.
+    /// Returns the verdicts of a full decision at a state. All verdicts are `None` if the rank at
+    /// this state differs from the rank of the motion. The instant is then a singular configuration
+    /// and has no verdict on its interval.
     fn decided(
         &mut self,
         whole: &Mechanism,
@@ -404,7 +407,7 @@ impl OpenPart<'_> {
         vec![None; own + forms.len()]
     }
 
-    /// Returns the accuracy of a decision whose columns have these exponents of two.
+    /// Returns the accuracy of a decision. The columns were scaled with these exponents of two.
     fn accuracy(
         &self,
         whole: &Mechanism,
@@ -427,7 +430,7 @@ impl OpenPart<'_> {
 
     /// Returns vectors of the left null space from the motion, orthonormal in equilibrated rows.
     /// The accuracy of these vectors is the accuracy of the last full decision, or the accuracy to
-    /// which they satisfy `Cᵀ·z = 0`.
+    /// which the vectors satisfy `Cᵀ·z = 0`.
     fn carried_basis(
         &self,
         whole: &Mechanism,
@@ -439,15 +442,15 @@ impl OpenPart<'_> {
         let own: Vec<&[f64]> = at.dependencies.iter().map(Vec::as_slice).collect();
         let columns = own.len().min(self.redundancy);
         let z = orthonormal(&own, &self.rows, &known.row_factor, columns);
-        // Dependencies may be almost parallel, which increases the error of their orthonormal
+        // Dependencies may be almost parallel. This increases the error of their orthonormal
         // vectors.
         let missed = (0..columns).map(|j| self.missed(whole, at, (&z, j), accuracy));
         let off = missed.fold(0.0, f64::max) / accuracy.sigma.min(1.0);
         for noise in &mut known.row_noise {
             *noise = noise.max(rank::NOISE_FACTOR * off);
         }
-        // If there are many dependencies, only some combinations are available, each with its share
-        // of their size.
+        // If there are many dependencies, only some combinations are available. Each combination
+        // has its share of the size of the dependencies.
         let share = (self.redundancy as f64 / columns as f64).sqrt();
         let z = if share > 1.0 {
             Matrix::from_fn(m, columns, |i, j| share * z[(i, j)])
@@ -482,8 +485,8 @@ impl OpenPart<'_> {
         sums.map(|(sum, factor)| sum * factor).fold(0.0, f64::hypot)
     }
 
-    /// Returns the verdicts on all numbers of the part, with a basis for rows of the part. For some
-    /// of the rows, a basis of all rows may be given.
+    /// Returns the verdicts on all numbers of the part, with a basis for rows of the part. A basis
+    /// of all rows may be given; it is then used for some of the rows.
     fn judged<'b>(
         &self,
         whole: &Mechanism,
@@ -514,7 +517,7 @@ impl OpenPart<'_> {
     }
 }
 
-/// Returns the indices of these rows of a part in a basis, which covers all rows or only these
+/// Returns the indices of these rows of a part in a basis. The basis covers all rows or only these
 /// rows.
 fn places(basis: &Basis, rows: &[usize], all: usize) -> Vec<usize> {
     if basis.z.nrows() == all {

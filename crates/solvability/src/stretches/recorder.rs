@@ -12,13 +12,13 @@ use crate::verdict::Verdict;
 pub enum InstantOrder {
     /// The next instant in chronological order.
     Next,
-    /// A later instant, the next one of several in chronological order; earlier instants may
-    /// follow.
+    /// A later instant. Of several later instants, it is the next one in chronological order.
+    /// Earlier instants may follow.
     Ahead,
 }
 
-/// The verdicts at an instant, one for each number; `None` if the instant gives no verdict on its
-/// interval.
+/// The verdicts at an instant, one for each number. A verdict is `None` if the instant gives no
+/// verdict on its interval.
 pub(super) type Verdicts = Vec<Option<Verdict>>;
 
 /// The verdicts on some numbers at instants of a simulation.
@@ -38,7 +38,7 @@ struct VerdictHistory {
 }
 
 impl VerdictRecorder {
-    /// Creates a recorder of this many numbers.
+    /// Creates a recorder for this number of numbers.
     #[must_use]
     pub fn new(numbers: usize) -> Self {
         Self {
@@ -49,8 +49,9 @@ impl VerdictRecorder {
         }
     }
 
-    /// Adds the verdicts at an instant, one for each number; `None` if the instant gives no verdict
-    /// on its interval. If two instants have the same time, the first one counts.
+    /// Adds the verdicts at an instant, one for each number. A verdict is `None` if the instant
+    /// gives no verdict on its interval. If two instants have the same time, the first instant
+    /// counts.
     pub fn see(&mut self, t: f64, looked: InstantOrder, verdicts: Vec<Option<Verdict>>) {
         match looked {
             InstantOrder::Ahead => self.ahead.push_back((t, verdicts)),
@@ -120,7 +121,7 @@ impl VerdictRecorder {
             .chain([to])
             .collect();
         let times = &self.times;
-        // Instants that belong to each interval, and the instants inside it.
+        // Instants that belong to each interval, and the instants inside the interval.
         let last = ends.len() - 2;
         let pieces: Vec<RecordedStretch> = (0..=last)
             .map(|k| {
@@ -192,8 +193,8 @@ impl VerdictHistory {
         VerdictTrack::new(stretches, special)
     }
 
-    /// Returns the verdict on an interval, which is that of its inside. A simulation of one instant
-    /// has the verdict of this instant.
+    /// Returns the verdict on an interval. The result is the verdict on the inside of the interval.
+    /// A simulation of one instant has the verdict of this instant.
     fn verdict(&self, piece: &RecordedStretch) -> Verdict {
         let [from, to] = piece.ends;
         let range = if from == to {

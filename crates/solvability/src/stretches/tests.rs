@@ -12,7 +12,8 @@ fn undecided() -> Verdict {
     }
 }
 
-/// One number examined at these instants during a simulation with these interval boundaries.
+/// Returns the result for one number that is examined at these instants during a simulation with
+/// these interval boundaries.
 fn track(extent: [f64; 2], cuts: &[f64], seen: &[(f64, Verdict)]) -> VerdictTrack {
     let mut recorder = VerdictRecorder::new(1);
     cuts.iter().for_each(|&t| recorder.cut(t));
@@ -43,7 +44,7 @@ fn the_start_is_a_special_instant() {
     assert!(found.determined().is_empty());
 }
 
-/// The opposite case: at a start, an end and an event more verdicts are undecided or not unique
+/// The opposite case. At a start, an end and an event, more verdicts are undecided or not unique
 /// than in between.
 #[test]
 fn instants_on_cuts_decide_nothing() {
@@ -108,7 +109,7 @@ fn a_run_of_one_instant_has_its_verdict() {
     );
 }
 
-/// The end of a step is known before the rows inside the step.
+/// The end of a step is available before the rows inside the step.
 #[test]
 fn instants_ahead_take_their_place_in_time() {
     let mut recorder = VerdictRecorder::new(1);

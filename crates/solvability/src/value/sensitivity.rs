@@ -4,7 +4,7 @@ use crate::limits::{BEYOND, FRAGILE, MANY};
 use model::words::{estimate, rough};
 use model::{ConstraintId, DataUnit, Layout};
 
-/// Change of a reaction component if one datum changes.
+/// Change of a reaction component due to a change of one datum.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Sensitivity {
@@ -32,14 +32,14 @@ pub struct Datum {
 }
 
 impl Sensitivity {
-    /// Returns whether the number is sensitive to data (fragile): it changes by more than the
-    /// limit.
+    /// Returns whether the number is sensitive to data (fragile). The number is sensitive if it
+    /// changes by more than the limit.
     #[must_use]
     pub fn is_fragile(&self) -> bool {
         self.change > FRAGILE
     }
 
-    /// Returns the change as printed, to three digits: a first-order estimate has no more accurate
+    /// Returns the change as printed, to three digits. A first-order estimate has no more accurate
     /// digits.
     #[must_use]
     pub fn stated(&self) -> f64 {
@@ -48,8 +48,8 @@ impl Sensitivity {
             .unwrap_or(self.change)
     }
 
-    /// Returns a sentence about the reaction or number of this name. It states that the number is
-    /// unique but changes, by how much, and with which datum.
+    /// Returns a sentence about the reaction or number with this name. The sentence states that the
+    /// number is unique but changes, by how much it changes, and with which datum.
     #[must_use]
     pub fn sentence(&self, reaction: &str, layout: &Layout) -> String {
         match &self.by {
@@ -78,7 +78,8 @@ impl Datum {
         format!("{} {verb} by {moved}", self.subject(layout))
     }
 
-    /// Describes the datum for a sentence: a point by its body, other data by their keys.
+    /// Describes the datum for a sentence. A point is described by its body, and other data are
+    /// described by their keys.
     fn subject(&self, layout: &Layout) -> String {
         let group = &layout.groups[self.joint.0];
         match group.slot_of_point(self.name) {
@@ -95,7 +96,7 @@ impl Datum {
 }
 
 /// States that this number of reactions changes by at most this fraction of their size. The
-/// fraction is of first order, so it is given as a number only if it is small.
+/// fraction is of first order. Therefore it is given as a number only if it is small.
 pub(crate) fn change_in_words(change: f64, reactions: usize) -> String {
     let (verb, up_to, whose) = match reactions {
         1 => ("changes", "", "its"),

@@ -3,7 +3,7 @@
 use super::extend;
 use crate::limits::{CLEARLY_RELEASED, REPLACEMENT_STEPS, REPLACEMENT_WAYS, TIED_CLEARNESS};
 
-/// A weaker joint in place of a joint.
+/// A weaker joint that replaces a joint.
 #[derive(Clone, Debug)]
 pub(super) struct Candidate {
     /// Index in the list of the caller.
@@ -17,29 +17,31 @@ pub(super) struct Candidate {
 /// A set of replacements.
 struct Way {
     cost: usize,
-    /// Logarithm of the product of the remainders; the larger, the better determined.
+    /// Logarithm of the product of the remainders. A larger value means a better determined set.
     clearness: f64,
     chosen: Vec<usize>,
 }
 
 /// Depth-first search over the joints.
 struct Search {
-    /// The candidates of each joint, those with the smallest cost for each component first.
+    /// The candidates of each joint. The candidates with the smallest cost for each component come
+    /// first.
     joints: Vec<Vec<Candidate>>,
-    /// For each joint: the number of components that this joint and the later ones can release, and
-    /// their smallest cost for one component.
+    /// For each joint: the number of components that this joint and the later joints can release,
+    /// and their smallest cost for one component.
     later: Vec<(usize, f64)>,
     /// Number of components that have to be released.
     free: usize,
-    /// Sets with this cost or more are left out, if there is such a limit.
+    /// Sets with at least this cost are left out, if there is such a limit.
     below: Option<usize>,
     ways: Vec<Way>,
     steps: usize,
 }
 
-/// Returns the cheapest sets of candidates, at most one for each joint, that together release
-/// `free` independent components and cost less than `below`. Among sets with the same cost, the set
-/// whose components are farthest from being dependent comes first.
+/// Returns the cheapest sets of candidates, with at most one candidate for each joint. The
+/// candidates of a set together release `free` independent components and cost less than `below`.
+/// Among sets with the same cost, the set whose components are farthest from being dependent comes
+/// first.
 pub(super) fn cheapest(
     mut joints: Vec<Vec<Candidate>>,
     free: usize,
@@ -52,7 +54,8 @@ pub(super) fn cheapest(
         });
         candidates.sort_by(|a, b| each(a).total_cmp(&each(b)));
     }
-    // Joints that can release most come first, because they leave the fewest possibilities.
+    // Joints that can release the most components come first, because they leave the fewest
+    // possibilities.
     joints.sort_by_key(|candidates| std::cmp::Reverse(most(candidates)));
     let mut later = vec![(0, f64::INFINITY); joints.len() + 1];
     for (k, candidates) in joints.iter().enumerate().rev() {
@@ -72,19 +75,19 @@ pub(super) fn cheapest(
     search.ways.into_iter().map(|way| way.chosen).collect()
 }
 
-/// Returns the cost for each released component.
+/// Returns the cost of a candidate for each released component.
 fn each(candidate: &Candidate) -> f64 {
     candidate.cost as f64 / candidate.forms.len() as f64
 }
 
-/// Returns the largest number of components that one of the candidates releases.
+/// Returns the largest number of components that a single candidate releases.
 fn most(candidates: &[Candidate]) -> usize {
     let released = candidates.iter().map(|candidate| candidate.forms.len());
     released.max().unwrap_or(0)
 }
 
 impl Search {
-    /// Decides on the joint `at` and all later joints. `released` is an orthonormal basis of the
+    /// Decides on the joint `at` and on all later joints. `released` is an orthonormal basis of the
     /// components that the earlier joints release.
     fn decide(
         &mut self,

@@ -33,7 +33,7 @@ fn a_weaker_joint_restricts_no_other_motion() {
     // The slot has to be parallel to the slider, but the rounding of its direction does not matter.
     let counts = [0.0, 1e-13, 1e-6, 1.0].map(|angle| count(&slot(angle)));
     assert_eq!(counts, [1, 1, 0, 0]);
-    // A hinge has as many rows, and the slider itself is not weaker.
+    // A hinge has the same number of rows, and the slider itself is not weaker.
     let hinge = block(Revolute {
         s_i: place,
         s_j: place,
@@ -76,7 +76,7 @@ fn equal_sets_keep_their_order() {
     assert_eq!(with(0.5 - 1e-4), [[1, 2], [0, 2]]);
 }
 
-/// A fixed sequence of numbers between −1 and 1.
+/// Returns a fixed sequence of numbers between −1 and 1.
 fn numbers() -> impl FnMut() -> f64 {
     let mut x = 0.37_f64;
     move || {
@@ -85,8 +85,9 @@ fn numbers() -> impl FnMut() -> f64 {
     }
 }
 
-/// Generic forms are independent, so a set is sufficient iff it releases as many components as are
-/// free. The cheapest set follows from the numbers of components and the costs alone.
+/// Generic forms are independent. Therefore a set is sufficient iff the number of released
+/// components is the number of free components. The cheapest set follows from the numbers of
+/// components and the costs alone.
 #[test]
 fn the_first_set_is_the_cheapest() {
     let mut next = numbers();
@@ -118,7 +119,7 @@ fn the_first_set_is_the_cheapest() {
         let cost = |way: &Vec<usize>| way.iter().map(|&k| all[k].cost).sum::<usize>();
         assert_eq!(found.first().map(cost), Some(least), "{free}");
         assert!(found.is_sorted_by_key(cost), "{found:?}");
-        // A limit removes the sets that are not cheaper, and no other.
+        // A limit removes only the sets that are not cheaper.
         for limit in [least, least + 1, least + 3] {
             let below = cheapest(joints.clone(), free, Some(limit));
             let cheaper = found.iter().filter(|way| cost(way) < limit);

@@ -1,4 +1,4 @@
-//! Axes of the loads that do not depend on the axes of the scene.
+//! Axes of the loads. These axes do not depend on the axes of the scene.
 
 use linalg::kernels::{dot, norm};
 use linalg::{Matrix, PivotedQr, symmetric_eigen};
@@ -23,9 +23,9 @@ pub(super) fn span_of(elements: &[Element], p: usize, zero: Zero) -> Vec<Vec<f64
     (0..rank).map(direction).collect()
 }
 
-/// Rotates the components of each load to the principal axes of its leverage
-/// `A_X·(Σ AᵀA)⁻¹·A_Xᵀ`, which do not depend on the axes of the scene, and scales each load to
-/// size one. Components that do not depend on y are left out. The sizes are returned, too.
+/// Rotates the components of each load to the principal axes of its leverage `A_X·(Σ AᵀA)⁻¹·A_Xᵀ`.
+/// These axes do not depend on the axes of the scene. Each load is scaled to size one. Components
+/// that do not depend on y are left out. The function also returns the sizes.
 pub(super) fn principal(
     elements: &[Element],
     p: usize,
@@ -55,7 +55,7 @@ pub(super) fn principal(
     }
     let mut out = Vec::new();
     for group in &scaled {
-        // R⁻ᵀ·Aᵀ: its products are the leverage.
+        // The products of R⁻ᵀ·Aᵀ are the leverage.
         let mapped = group.iter().map(|e| {
             let mut x: Vec<f64> = qr.permutation().iter().map(|&k| e.row[k]).collect();
             qr.solve_r_transpose(&mut x);
@@ -83,7 +83,8 @@ pub(super) fn principal(
     Ok((out, sizes))
 }
 
-/// Returns orthonormal eigenvectors; among equal eigenvalues those along the given axes.
+/// Returns orthonormal eigenvectors. For equal eigenvalues, the eigenvectors are along the given
+/// axes.
 fn axes_of(leverage: &Matrix) -> Vec<Vec<f64>> {
     let n = leverage.nrows();
     let eigen = symmetric_eigen(leverage);
@@ -95,7 +96,7 @@ fn axes_of(leverage: &Matrix) -> Vec<Vec<f64>> {
         let equal = |k: &usize| (values[*k] - values[from]).abs() <= EQUAL_LEVERAGE;
         let to = from + (from..n).take_while(equal).count();
         let space: Vec<Vec<f64>> = (from..to).map(vector).collect();
-        // Projections of the given axes on the eigenspace, the longest ones first.
+        // Projections of the given axes on the eigenspace, the longest projections first.
         let project = |i: usize| -> Vec<f64> {
             let parts = space.iter().map(|v| v.iter().map(|x| x * v[i]));
             parts.fold(vec![0.0; n], |mut sum, part| {

@@ -9,24 +9,24 @@ use crate::limits::TIED_ENDS;
 
 /// A connected component of the matroid of the elements.
 pub(super) struct Block {
-    /// Its coordinates among those of all blocks.
+    /// The coordinates of the block among those of all blocks.
     pub(super) coordinates: Vec<usize>,
     pub(super) points: Vec<HullPoint>,
-    /// Restriction of the weights of the points.
+    /// Restriction of the weights of the points of the block.
     pub(super) weights: Weights,
 }
 
 /// The weights with which the points of a block are averaged.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Weights {
-    /// Any weights c^m·w_m: a point is reached where its monomial dominates.
+    /// Any weights c^m·w_m. A point is reached if its monomial dominates.
     Monomials,
-    /// Any weights; every point is reached.
+    /// Any weights. Every point is reached.
     Corners,
-    /// The points are reached, and other points may lie outside of their hull.
+    /// The points are reached. Other points may lie outside of their hull.
     Samples,
-    /// Between the weight of each point and this multiple of it. More averages are possible than
-    /// with any compliances.
+    /// The weight of each point varies between its given value and this multiple of it. More
+    /// averages are possible than with any compliances.
     UpTo(f64),
 }
 
@@ -40,7 +40,8 @@ impl Block {
         !self.loads().is_disjoint(&other.loads())
     }
 
-    /// Returns whether a point is approached for some compliances: its monomial dominates there.
+    /// Returns whether a point is approached for some compliances, because its monomial dominates
+    /// for them.
     fn is_vertex(&self, k: usize) -> bool {
         let own = &self.points[k].monomial;
         let exponent = |of: &Monomial, load: usize| {
@@ -65,7 +66,7 @@ impl Block {
         is_separated(&differences.collect::<Vec<Vec<f64>>>())
     }
 
-    /// Returns the block of all coordinates of both.
+    /// Returns the block of all coordinates of both blocks.
     pub(super) fn times(&self, other: &Self) -> Self {
         let mut sums = Sums::default();
         for a in &self.points {
@@ -86,8 +87,8 @@ impl Block {
         }
     }
 
-    /// Returns the smallest average of these values of the points, and the points that it weights
-    /// most.
+    /// Returns the smallest average of these values of the points, and the points with the largest
+    /// weights.
     pub(super) fn least(&self, values: &[f64]) -> (f64, Vec<usize>) {
         let least = values.iter().copied().fold(f64::INFINITY, f64::min);
         let Weights::UpTo(factor) = self.weights else {
@@ -113,7 +114,7 @@ impl Block {
         (least + best, order)
     }
 
-    /// Returns the point among these with equal values that some compliances reach.
+    /// Returns a point that some compliances reach, among these points with equal values.
     pub(super) fn reached(&self, tied: &[usize]) -> Option<usize> {
         let mut tied = tied.iter().copied();
         match self.weights {

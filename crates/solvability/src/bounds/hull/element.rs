@@ -5,7 +5,7 @@ use crate::limits::{CLEAR_MINOR, CLEAR_OF_ZERO, ZERO_MINOR};
 /// A component of a load: `value + row·y` for the solution `λ₀ + Z·y`.
 #[derive(Clone, Debug)]
 pub(in super::super) struct Element {
-    /// The load to which it belongs; loads follow each other.
+    /// The load to which the component belongs. Components of one load are consecutive.
     pub(in super::super) group: usize,
     /// Coefficients of y.
     pub(in super::super) row: Vec<f64>,
@@ -43,12 +43,12 @@ impl Zero {
 /// Reason why there is no hull.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(in super::super) enum HullError {
-    /// Whether components of this load may be zero together with others is undecided.
+    /// It is undecided whether components of this load may be zero together with other components.
     Unclear { group: usize },
-    /// Whether one-sided joints press is not clear.
+    /// It is not clear whether one-sided joints press.
     Limits,
     /// There are too many sets.
     Many,
-    /// This number of coordinates y changes no component.
+    /// This number of coordinates y does not change any component.
     Free { free: usize },
 }

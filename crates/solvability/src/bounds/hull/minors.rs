@@ -11,13 +11,13 @@ use crate::limits::{RANDOM_SAMPLES, SAMPLE_WORK, SAMPLED_RATIO};
 pub(super) struct Minors<'e> {
     pub(super) inside: Vec<&'e Element>,
     pub(super) outside: Vec<&'e Element>,
-    /// Rows of the other elements in terms of the basis.
+    /// Rows of the elements outside of the basis, in terms of the basis.
     pub(super) rows: Matrix,
     pub(super) zero: Zero,
 }
 
 impl Minors<'_> {
-    /// Returns the number of sets of elements that replace each other, at most.
+    /// Returns an upper bound of the number of sets of elements that replace each other.
     pub(super) fn count(&self) -> u64 {
         let (n, p) = (self.inside.len() + self.outside.len(), self.inside.len());
         let mut count: u128 = 1;
@@ -29,11 +29,12 @@ impl Minors<'_> {
 
     /// Returns y_m for all monomials, and the number of sets S.
     ///
-    /// A set S contains the basis without the elements I, and the elements J outside. Its
-    /// determinant is the minor of `rows` with the rows J and the columns I.
+    /// A set S contains the basis without the elements I, and the elements J outside of the basis.
+    /// The determinant of S is the minor of `rows` with the rows J and the columns I.
     pub(super) fn points(&self) -> Result<(Vec<HullPoint>, u64), HullError> {
         let p = self.inside.len();
-        // The remaining values of the elements outside, if all elements of the basis are zero.
+        // The remaining values of the elements outside of the basis, if all elements of the basis
+        // are zero.
         let at_zero: Vec<f64> = self.inside.iter().map(|e| -e.value).collect();
         let left = self.outside.iter().enumerate();
         let left: Vec<f64> = left
@@ -65,7 +66,8 @@ impl Minors<'_> {
         Ok((sums.points(), sets))
     }
 
-    /// Returns solutions for some compliances: each load soft or stiff alone, and random ones.
+    /// Returns solutions for some compliances. In some, a single load is soft or stiff, and in
+    /// others the compliances are random.
     pub(super) fn samples(&self) -> Result<Vec<HullPoint>, HullError> {
         let p = self.inside.len();
         let elements: Vec<&Element> = self.inside.iter().chain(&self.outside).copied().collect();
@@ -112,7 +114,7 @@ impl Minors<'_> {
     }
 
     /// Returns the determinant of a minor, and the change of the coordinates that makes the
-    /// elements in its rows zero; `None` if the minor is singular.
+    /// elements in its rows zero. Returns `None` if the minor is singular.
     fn solved(
         &self,
         minor: Matrix,
@@ -137,7 +139,7 @@ impl Minors<'_> {
     }
 }
 
-/// Returns all subsets of k of the numbers below n.
+/// Returns all subsets with k elements of the numbers below n.
 fn combinations(n: usize, k: usize) -> Vec<Vec<usize>> {
     let mut out = Vec::new();
     let mut chosen: Vec<usize> = (0..k).collect();

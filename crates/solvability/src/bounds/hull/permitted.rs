@@ -1,8 +1,9 @@
 //! The part of the hull in which one-sided joints press.
 //!
-//! A linear program over the averages of the points, whose columns are generated: a point enters if
-//! it has the smallest value of the number, reduced by the conditions with the multipliers of the
-//! points known so far. See G. B. Dantzig and P. Wolfe, Operations Research 8 (1960) 101–111.
+//! The part is computed by a linear program over the averages of the points. The columns of the
+//! program are generated. The value of the number at each point is reduced by the conditions with
+//! the multipliers of the points known so far. The point with the smallest reduced value enters.
+//! See G. B. Dantzig and P. Wolfe, Operations Research 8 (1960) 101–111.
 
 use linalg::Matrix;
 use linalg::kernels::{dot, max_abs};
@@ -49,7 +50,7 @@ impl Hull {
     }
 
     /// Returns the smallest and the largest value of a linear form of y in the part of the hull in
-    /// these half spaces, for loads of this size; `None` if the part is empty.
+    /// these half spaces, for loads of this size. Returns `None` if the part is empty.
     ///
     /// # Errors
     /// [`HullError::Free`]; [`HullError::Limits`]: the result is not clear.
@@ -60,7 +61,8 @@ impl Hull {
         size: f64,
     ) -> Result<Option<[f64; 2]>, HullError> {
         let along = self.in_blocks(along)?;
-        // A condition on coordinates that no elastic load determines restricts nothing else.
+        // A condition on coordinates that no elastic load determines does not restrict other
+        // coordinates.
         let inside = half_spaces.iter();
         let inside = inside.filter_map(|half| {
             let mut row = self.in_blocks(&half.row).ok()?;
@@ -114,7 +116,7 @@ impl Hull {
                 Outcome::Infeasible { multipliers } => (multipliers, 0.0, None),
                 Outcome::Optimal { x, multipliers } => (multipliers, 1.0, Some(dot(&x, &costs))),
             };
-            // The reduced cost of a point; a point with a negative one enters.
+            // The reduced cost of a point. A point with a negative reduced cost enters.
             let mut reduced: Vec<f64> = along.iter().map(|x| known * x).collect();
             for (half, pi) in half_spaces.iter().zip(&multipliers) {
                 let terms = reduced.iter_mut().zip(&half.row);
@@ -142,8 +144,8 @@ mod tests {
     use crate::limits::CLEAR_MINOR;
     use crate::polyhedra::tests::{Plate, WEIGHT};
 
-    /// The force of each leg has one component, so each vertex of the permitted loads is a point of
-    /// the hull: a plate on three legs.
+    /// A plate on three legs. The force of each leg has one component, so each vertex of the
+    /// permitted loads is a point of the hull.
     #[test]
     fn plates_push_with_the_loads_of_plates_on_three_legs() {
         let mut numbers = Numbers::new(5);
@@ -185,11 +187,12 @@ mod tests {
         assert!(standing > 300, "{standing} legs");
     }
 
-    /// A table on four legs, each of which gives way: each hull point is a table on three legs.
-    /// The legs that push are those of tables on three legs without pull, by hand.
+    /// A table on four legs, each of which gives way. Each point of the hull is a table on three
+    /// legs. The legs that push are the legs of tables on three legs without pull, computed by
+    /// hand.
     #[test]
     fn a_table_pushes_with_the_loads_of_tables_on_three_legs() {
-        // One of the solutions: leg D carries nothing, and B pulls.
+        // In one of the solutions, leg D carries no load, and B pulls.
         let (pushes, z) = ([78.48, -4.905, 44.145, 0.0], [0.5, -0.5, 0.5, -0.5]);
         let legs = || pushes.into_iter().zip(z).enumerate();
         let elements = legs().map(|(group, (value, z))| Element {
@@ -216,7 +219,7 @@ mod tests {
                 assert!((found - expected).abs() < 1e-9, "{found} is not {expected}");
             }
         }
-        // No table presses on a leg from below.
+        // None of these tables presses on a leg from below.
         let above = HalfSpace {
             row: vec![0.0],
             value: -1.0,

@@ -2,13 +2,13 @@
 
 use std::collections::BTreeMap;
 
-/// The loads of a monomial with their exponents, ascending.
+/// The loads of a monomial with their exponents, in ascending order.
 pub(super) type Monomial = Vec<(usize, u32)>;
 
 /// A solution y_m of a block.
 pub(super) struct HullPoint {
     pub(super) monomial: Monomial,
-    /// Sum of the squared determinants.
+    /// Sum of the squared determinants of the sets in the monomial.
     pub(super) weight: f64,
     pub(super) y: Vec<f64>,
 }

@@ -12,16 +12,16 @@ use crate::limits::{CLEAR_MINOR, MAGNITUDE_POINTS, ZERO_MINOR};
 /// One end of the range of a linear form.
 pub(in super::super) struct RangeEnd {
     pub(in super::super) value: f64,
-    /// The loads whose joints give way.
+    /// The loads of the joints that give way at this end.
     pub(in super::super) groups: Vec<usize>,
     pub(in super::super) is_reached: bool,
-    /// Whether no compliances give a value beyond this one.
+    /// Whether no compliances give a value beyond this end.
     pub(in super::super) is_bound: bool,
 }
 
 impl Hull {
-    /// Returns the coefficients of a linear form of y in the coordinates of the blocks, or an error
-    /// if it depends on directions of y that change no element.
+    /// Returns the coefficients of a linear form of y in the coordinates of the blocks. Returns an
+    /// error if the form depends on directions of y that change no element.
     pub(super) fn in_blocks(&self, along: &[f64]) -> Result<Vec<f64>, HullError> {
         let Some(span) = &self.span else {
             return Ok(solved(&self.basis, along.to_vec()));

@@ -15,11 +15,11 @@ pub(in super::super) struct Range<'n> {
 
 impl Block {
     /// Restricts the compliances. If each load has at most one component in each monomial, y is a
-    /// ratio of functions that are affine in each compliance, and its extremes belong to the
+    /// ratio of functions that are affine in each compliance. The extremes of y then belong to the
     /// corners of the range. Otherwise the weight of a monomial of degree p varies by the factor to
     /// the power p.
     pub(super) fn restrict(&mut self, range: &Range<'_>, sizes: &[f64]) {
-        // Logarithms: products of many compliances leave the range of numbers.
+        // Logarithms are used, because products of many compliances leave the range of numbers.
         let nominal = |(load, n): &(usize, u32)| {
             f64::from(*n) * (range.nominal[*load].ln() + 2.0 * sizes[*load].ln())
         };
@@ -62,7 +62,7 @@ impl Block {
         }
     }
 
-    /// Replaces the logarithms of the weights by weights relative to the largest one.
+    /// Replaces the logarithms of the weights by weights relative to the largest weight.
     fn exponentiate(&mut self) {
         let weights = self.points.iter().map(|point| point.weight);
         let most = weights.fold(f64::NEG_INFINITY, f64::max);
@@ -71,7 +71,7 @@ impl Block {
         }
     }
 
-    /// Returns the smallest y of a block with one coordinate, or the largest for the sign −1.
+    /// Returns the smallest y of a block with one coordinate, or the largest y if the sign is −1.
     fn end(&self, sign: f64) -> HullPoint {
         let values = self.points.iter().map(|point| sign * point.y[0]);
         let (least, soft) = self.least(&values.collect::<Vec<f64>>());
@@ -83,7 +83,7 @@ impl Block {
         }
     }
 
-    /// Returns the solution whose soft loads are softer by a factor.
+    /// Returns the solution for which the soft loads are softer by a factor.
     fn average(&self, is_soft: impl Fn(&usize) -> bool, factor: f64) -> HullPoint {
         let (mut total, mut y) = (0.0, vec![0.0; self.coordinates.len()]);
         let weight = |point: &HullPoint| {

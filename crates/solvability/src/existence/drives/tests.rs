@@ -42,7 +42,7 @@ fn gantry(motions: [Function; 2]) -> Description {
     d
 }
 
-/// A motion from 0.5 s to 1 s to this value.
+/// Returns a motion to this value from 0.5 s to 1 s.
 fn late(to: f64) -> Function {
     Function::steps(0.0, &[[0.5, 1.0, to]]).expect("ordered")
 }
@@ -59,7 +59,8 @@ fn assembled(d: &Description) -> (Mechanism, Vec<f64>) {
     (mechanism, q)
 }
 
-/// The configuration that the independent drives reach.
+/// Returns the configuration at which the coordinates of the independent drives have their
+/// prescribed values.
 fn followed_drives(mechanism: &Mechanism, q: &[f64], t: f64) -> Option<Vec<f64>> {
     let mut last = None;
     let seen = walk(mechanism, q, t, None, |time, q| {
@@ -101,7 +102,7 @@ fn motors_of_two_speeds_are_named_at_the_start() {
     assert!(one.is_of_drives());
 }
 
-/// The motors differ by 0.3 m and 0.6 m. For any size of the difference, no rail is named.
+/// The motors differ by 0.3 m and 0.6 m. No rail is named, whatever the size of the difference is.
 #[test]
 fn motors_that_part_later_are_named_with_the_time() {
     for (far, said) in [(0.6, "0.6 m"), (600.0, "600 m")] {
@@ -138,7 +139,8 @@ fn motors_that_part_later_are_named_with_the_time() {
     }
 }
 
-/// A drive that moves too far for the continuation is compared up to the last reached position.
+/// A drive moves too far for the continuation. In this case the drives are compared up to the last
+/// position of the continuation.
 #[test]
 fn what_leads_far_away_is_compared_on_the_way() {
     let one = along(&gantry([late(1e6), late(0.3)]), 1.5).expect("they differ");
@@ -148,8 +150,8 @@ fn what_leads_far_away_is_compared_on_the_way() {
     );
 }
 
-/// Functions of time that differ slightly. At a single time, differences above rounding are
-/// reported; along the motion only if they would stop a simulation.
+/// The functions of time differ slightly. At a single time, differences above rounding are
+/// reported. Along the motion, differences are reported only if they would stop a simulation.
 #[test]
 fn small_differences_are_told_at_their_time() {
     for size in [1e-3, 1e-6, 1e-9, 1e-12] {
@@ -205,8 +207,9 @@ fn locomotive(motions: [Function; 2]) -> Description {
     d
 }
 
-/// The motion passes six configurations at which the rank drops and the second wheel could rotate
-/// in the opposite direction. It does not do so.
+/// During the motion there are six configurations at which the rank drops and the second wheel
+/// could rotate in the opposite direction. The second wheel does not rotate in the opposite
+/// direction.
 #[test]
 fn agreeing_motors_are_followed_through_flat_poses() {
     for turns in [0.7, 3.0] {
@@ -247,7 +250,7 @@ fn a_motor_that_lags_behind_is_named_with_the_joints_between() {
 
 /// Two motors that differ by a ten-thousandth, on parts with an accuracy of one millimetre. Within
 /// the tolerance, the wheels can follow both motors at other angles and other speeds. A difference
-/// of half a radian cannot be explained by the parts.
+/// of half a radian cannot result from the tolerance of the parts.
 #[test]
 fn motors_that_differ_by_less_than_the_parts_contradict_nothing() {
     let step = |to: f64| Function::steps(0.0, &[[0.0, 1.0, to]]).expect("ordered");
@@ -264,7 +267,7 @@ fn motors_that_differ_by_less_than_the_parts_contradict_nothing() {
     assert!(with(Some(1e-3), 1.5).is_some());
 }
 
-/// Hinges 0.8 m apart lock the leaf; the motor on the first one prescribes a rotation.
+/// Hinges 0.8 m apart lock the leaf. The motor on the first hinge prescribes a rotation.
 fn locked_door(motion: Function) -> Description {
     let mut d = Description::new("door");
     let leaf = d.body(Body {
@@ -291,7 +294,7 @@ fn a_drive_that_asks_for_what_joints_forbid_is_named_with_them() {
     assert_eq!(at_start(&d), []);
     let one = along(&d, 1.0).expect("it turns in the end");
     assert!((one.time, one.demands.len()) == (7.0 / 12.0, 1), "{one}");
-    // A motor that holds the leaf at rest contradicts nothing.
+    // A motor that holds the leaf at rest does not contradict the hinges.
     assert_eq!(along(&locked_door(rate(0.0)), 1.0), None);
 }
 
@@ -309,7 +312,7 @@ fn a_drive_that_is_needed_contradicts_nothing() {
     assert!(contradicting_drives_along(&mechanism, &q, f64::NAN).is_err());
 }
 
-/// A slider-crank in line: its motor is redundant only at this configuration, so there is no
+/// A slider-crank in line. Its motor is redundant only at this configuration, so there is no
 /// contradiction.
 #[test]
 fn a_drive_that_is_redundant_at_the_start_alone_contradicts_nothing_later() {

@@ -48,7 +48,7 @@ fn limit(d: &Description) -> Option<DriveLimit> {
     drive_limit(&mechanism, &kept, (0.0, &q, &v))
 }
 
-/// The end of the bar is at most 3 m from a winch 2 m behind its pivot.
+/// The end of the bar is at most 3 m from a winch. The winch is 2 m behind the pivot of the bar.
 #[test]
 fn a_winch_stops_where_its_bar_is_stretched() {
     let stretched = |angle: f64, speed: f64| {
@@ -78,12 +78,14 @@ fn a_winch_stops_where_its_bar_is_stretched() {
             .ends_with("beyond 3 m: there is no configuration"),
         "{found}"
     );
-    // If the winch winds up, the end comes nearer; far from the stretched bar there is no limit.
+    // If the winch winds up, the end of the bar moves towards the winch. Far from the stretched bar
+    // there is no limit.
     assert_eq!(stretched(0.2, -0.1), None);
     assert_eq!(stretched(1.5, 0.1), None);
 }
 
-/// Two motors move the ends of a two-bar chain apart by sliders; the largest distance is 2 m.
+/// Two motors move the ends of a two-bar chain apart by sliders. The largest distance of the ends
+/// is 2 m.
 #[test]
 fn two_drives_reach_as_far_as_the_arm() {
     let mut d = Description::new("two sliders");
@@ -140,7 +142,7 @@ fn a_free_arm_reaches_as_far_as_it_is_long() {
     let value = found.drives[0].value.expect("a length");
     assert!((value - 2.0).abs() < 1e-9, "{value}");
 
-    // Additional pendulums are free as well, and have no influence.
+    // Additional pendulums are also free, and have no influence.
     for place in [3.0, 4.0, 5.0] {
         bar(&mut d, GROUND, [place, 0.0], 0.3);
     }
@@ -156,8 +158,8 @@ fn a_free_arm_reaches_as_far_as_it_is_long() {
     assert_eq!(limit(&d), None);
 }
 
-/// A parallelogram passes the configuration with collinear bars, where the branches of its motion
-/// meet. Its drive can continue, from any start of the search near that configuration.
+/// A parallelogram passes through the configuration with collinear bars, at which the branches of
+/// its motion meet. Its drive can continue, from any start of the search near that configuration.
 #[test]
 fn branches_that_meet_are_no_limit() {
     for angle in [0.0, -1e-14, -1e-12, -1e-9, -1e-6, -1e-3] {
@@ -180,7 +182,7 @@ fn branches_that_meet_are_no_limit() {
         let q = assemble(&mut mechanism, &StartOptions::default())
             .expect("assembles")
             .q;
-        // All bars rotate with 1 rad/s, and the coupler follows without rotation.
+        // All bars rotate with 1 rad/s, and the coupler moves without rotation.
         let of_crank = |x: f64| [-(0.5 * angle.sin()), 0.5 * angle.cos(), x];
         let [left, right] = [of_crank(1.0), of_crank(1.0)];
         let coupler = [-angle.sin(), angle.cos(), 0.0];

@@ -1,4 +1,5 @@
-//! Continuation from a configuration: the rows that it satisfies, and its change with the data.
+//! Tests of the continuation from a configuration: the rows that the continuation satisfies, and
+//! its change with the data.
 
 use joints::{Direction, KnifeEdge, Revolute, Translational};
 use model::start::{assemble, scene_size};
@@ -24,9 +25,10 @@ fn walked(description: &Description, kept: &[usize]) -> (Mechanism, Vec<f64>, Wa
     (mechanism, q, walk)
 }
 
-/// Two sliders of a tonne on the axes, connected by a rod of four metres and one gram: the middle
-/// of the rod moves on a circle of two metres. A step along the tangent has a residual that only
-/// the sliders can correct. With masses as weights, the rod would rotate in place of the sliders.
+/// Two sliders of a tonne on the axes, connected by a rod of four metres and one gram. The middle
+/// of the rod moves on a circle of two metres. After a step along the tangent there is a residual
+/// that only the sliders can correct. With masses as weights, the correction would rotate the rod
+/// instead of moving the sliders.
 #[test]
 fn a_long_arm_of_a_light_body_is_no_obstacle() {
     let (length, turn) = (4.0_f64, -0.7_f64);
@@ -65,9 +67,10 @@ fn a_long_arm_of_a_light_body_is_no_obstacle() {
     }
 }
 
-/// Two bodies with a hinge at (3, 1), each on two knife edges whose normals intersect at the
-/// origin. Both rotate about the origin together, although no row constrains their positions. If
-/// steps left the circles, the two centres would drift apart and the hinge would lock.
+/// Two bodies with a hinge at (3, 1). Each body is on two knife edges whose normals intersect at
+/// the origin. Both bodies rotate about the origin together, although no row constrains their
+/// positions. If steps left the circles, the two centres would move away from each other and the
+/// hinge would lock.
 #[test]
 fn what_edges_lead_stays_on_its_way() {
     let mut d = Description::new("carts");
@@ -93,7 +96,8 @@ fn what_edges_lead_stays_on_its_way() {
         s_j: local(carts[1].1),
     };
     d.joint("hinge", &[carts[0].0, carts[1].0], pin);
-    // Both rows of the hinge and three edges are kept: the fourth edge follows.
+    // Both rows of the hinge and three edges are kept. The row of the fourth edge follows from the
+    // kept rows.
     let (_, start, walk) = walked(&d, &[0, 1, 2, 3, 4]);
     assert_eq!(walk.reach(), [WALK_POSES; 2]);
     for (q, _) in (0..2).flat_map(|side| walk.poses(side)) {
@@ -110,7 +114,7 @@ fn what_edges_lead_stays_on_its_way() {
     }
 }
 
-/// A cart on one edge moves straight ahead. If the direction of the edge, or the cart at the start,
+/// A cart on one edge moves straight ahead. If the direction of the edge or the cart at the start
 /// is rotated by α, the cart is displaced sideways by s·α after s metres.
 #[test]
 fn what_the_data_make_of_the_way_adds_up() {

@@ -1,9 +1,9 @@
-//! Forms with solutions in closed form, on both sides of the limits of the decisions.
+//! Forms with solutions in closed form. The cases lie on both sides of the limits of the decisions.
 
 use super::*;
 use crate::second_order::{branches::others, definite::is_blocked};
 
-/// Forms with at most one regular motion `x`, and new ones.
+/// Returns forms with at most one regular motion `x`, and with new motions.
 fn forms(x: usize, matrices: &[Matrix]) -> Forms {
     Forms {
         x,
@@ -13,12 +13,12 @@ fn forms(x: usize, matrices: &[Matrix]) -> Forms {
     }
 }
 
-/// The diagonal matrix of two new motions.
+/// Returns the diagonal matrix of two new motions.
 fn diagonal(g: [f64; 2]) -> Matrix {
     Matrix::from_rows(&[[g[0], 0.0], [0.0, g[1]]])
 }
 
-/// The equation `g·y² = 0` has only the solution y = 0, if g is not rounding.
+/// The equation `g·y² = 0` has only the solution y = 0, unless g is a rounding error.
 #[test]
 fn a_definite_form_blocks_from_its_margin_on() {
     for (g, expected) in [(0.7e-5, false), (1.4e-5, true)] {
@@ -28,8 +28,8 @@ fn a_definite_form_blocks_from_its_margin_on() {
 }
 
 /// The forms are x·y₁ + x·y₂ + y₁² + y₂² and x·y₁ + (1 + 2d)·x·y₂. Their difference does not
-/// contain x·y₁, and has singular values of about d that contain the motion. It is a proof only if
-/// these values are rounding.
+/// contain x·y₁. It has singular values of about d that contain the motion. The difference is a
+/// proof only if these values are rounding errors.
 #[test]
 fn a_proof_contains_the_motion_by_rounding_only() {
     for (d, expected) in [(5e-9, true), (5e-8, false)] {
@@ -41,8 +41,8 @@ fn a_proof_contains_the_motion_by_rounding_only() {
     }
 }
 
-/// The forms are diag(1, −0.99) and diag(−9.7, 10). The sum of 9.8 times the first and the second
-/// is definite, but only few other combinations are.
+/// The forms are diag(1, −0.99) and diag(−9.7, 10). The sum of 9.8 times the first form and the
+/// second form is definite, but only few other combinations are definite.
 #[test]
 fn narrow_proofs_are_found() {
     let pair = [diagonal([1.0, -0.99]), diagonal([-9.7, 10.0])];
@@ -65,8 +65,9 @@ fn a_branch_differs_from_the_motion_by_a_thousandth() {
     }
 }
 
-/// On the parabola `x·y₂ = y₁²` the cubic (p − 1)·(p − 1 − d)·(p + 1) of p = y₁/x is a quadratic
-/// form: with p·y₂ for p³. Directions of p = 1 and p = 1 + d have the cosine 1 − d²/3.
+/// On the parabola `x·y₂ = y₁²`, the cubic (p − 1)·(p − 1 − d)·(p + 1) of p = y₁/x is a quadratic
+/// form, in which p·y₂ replaces p³. The cosine of the directions of p = 1 and p = 1 + d is 1 −
+/// d²/3.
 #[test]
 fn branches_nearer_than_a_thousandth_are_one() {
     for (d, expected) in [(1e-3, 2), (3e-3, 3)] {
@@ -82,7 +83,7 @@ fn branches_nearer_than_a_thousandth_are_one() {
     }
 }
 
-/// A single new motion, y = ±1, satisfies `g·y² = 0` if g is rounding.
+/// A single new motion, y = ±1, satisfies `g·y² = 0` if g is a rounding error.
 #[test]
 fn a_branch_meets_its_equations_to_rounding() {
     for (g, expected) in [(0.7e-12, 1), (1.4e-12, 0)] {
@@ -91,8 +92,8 @@ fn a_branch_meets_its_equations_to_rounding() {
     }
 }
 
-/// The given motion solves its equations to 1e-6 of their coefficients. Coefficients below 1e-10 of
-/// their terms count as zero.
+/// The given motion satisfies its equations to 1e-6 of their coefficients. Coefficients below 1e-10
+/// of their terms count as zero.
 #[test]
 fn forms_are_of_a_motion_and_no_rounding() {
     let normalised = |own: f64, terms: f64| {

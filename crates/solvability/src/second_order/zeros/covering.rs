@@ -1,11 +1,12 @@
-//! Proves that there is no common zero by boxes that cover the sphere, each without a zero of some
-//! combination of the forms.
+//! Proves that there is no common zero. Boxes cover the sphere, and in each box some combination of
+//! the forms has no zero.
 //!
-//! Zeros are directions, so the faces `a_i = 1`, `|a_k| ≤ 1` of the cube contain all of them. In a
-//! box with centre c and half width h, a form differs from its value at c by at most
-//! `h·Σ|g_k| + h²·Σ|M_kl|`, where g is its gradient at c. Four kinds of combinations are tried: the
-//! forms themselves, the steepest combination for the values at c, its part that is orthogonal to
-//! the gradients, and the combinations of Newton's method, whose gradients have one unknown each.
+//! Zeros are directions. Therefore the faces `a_i = 1`, `|a_k| ≤ 1` of the cube contain all zeros.
+//! In a box with centre c and half width h, a form differs from its value at c by at most `h·Σ|g_k|
+//! + h²·Σ|M_kl|`, where g is the gradient of the form at c. Four kinds of combinations are tried:
+//! the forms themselves, the steepest combination for the values at c, the part of this combination
+//! that is orthogonal to the gradients, and the combinations of Newton's method, whose gradients
+//! have one unknown each.
 
 use crate::limits::{BOX_HALVINGS, BOXES};
 use linalg::{Matrix, small_svd};
@@ -16,7 +17,7 @@ use super::independent::{Independent, value};
 struct Part {
     /// The unknown that is 1.
     face: usize,
-    /// All unknowns at the centre.
+    /// All unknowns at the centre of the part.
     centre: Vec<f64>,
     halvings: i32,
 }
@@ -56,7 +57,7 @@ impl Part {
         (0..self.centre.len()).filter(|k| *k != self.face)
     }
 
-    /// Returns the parts of half the width.
+    /// Returns the parts with half the width.
     fn halved(&self) -> impl Iterator<Item = Self> + '_ {
         let step = 0.5 * self.half_width();
         let free: Vec<usize> = self.free().collect();
@@ -84,7 +85,8 @@ impl Part {
             })
     }
 
-    /// Returns whether a form with these errors of its coefficients has no zero in this part.
+    /// Returns whether a form has no zero in this part. `error` contains the errors of the
+    /// coefficients of the form.
     fn is_free_of(&self, m: &Matrix, error: f64) -> bool {
         let h = self.half_width();
         let image = m.times(&self.centre);
@@ -99,7 +101,7 @@ impl Part {
         value(m, &self.centre).abs() > h * slope + h * h * curvature + error * size * size
     }
 
-    /// Returns combinations of the forms that are large here compared with their gradients.
+    /// Returns combinations of the forms that are large in this part compared with their gradients.
     fn weights(&self, forms: &Independent) -> Vec<Vec<f64>> {
         let values = forms.values(&self.centre);
         let free: Vec<usize> = self.free().collect();

@@ -11,13 +11,14 @@ pub(super) struct Independent {
     pub(super) forms: Vec<Matrix>,
     /// Error bound of the coefficients of each form.
     pub(super) error: Vec<f64>,
-    /// Whether the given forms are combinations of these, except for forms that are rounding.
+    /// Whether the given forms are combinations of these forms, except for forms that are rounding.
     /// Otherwise a common zero of these forms need not be a zero of the given forms.
     pub(super) spans_all: bool,
 }
 
 impl Independent {
-    /// Returns the combinations of these forms, whose coefficients have errors up to `error`.
+    /// Returns the combinations of the given forms. The coefficients of the given forms have errors
+    /// up to `error`.
     pub(super) fn of(forms: &[Matrix], unknowns: usize, error: f64) -> Self {
         let pairs: Vec<(usize, usize)> = (0..unknowns)
             .flat_map(|i| (i..unknowns).map(move |j| (i, j)))
@@ -72,7 +73,8 @@ pub(super) fn value(m: &Matrix, a: &[f64]) -> f64 {
     a.iter().zip(m.times(a)).map(|(a, m)| a * m).sum()
 }
 
-/// Returns the column sums of |R⁻¹|: the growth of the errors of the forms in each combination.
+/// Returns the column sums of |R⁻¹|. The column sums are the growth of the errors of the forms in
+/// each combination.
 fn growth(r: &Matrix, rank: usize) -> Vec<f64> {
     let column = |j: usize| {
         let mut x = vec![0.0; j + 1];

@@ -3,7 +3,7 @@
 use super::*;
 use CommonZero::{None, Undecided};
 
-/// Rounding of coefficients that are exact numbers.
+/// Rounding error of coefficients that are exact numbers.
 const ERROR: f64 = 1e-15;
 
 /// Returns the form a·x² + 2·b·x·y + c·y².
@@ -64,7 +64,8 @@ fn two_unknowns() {
     assert_eq!(common_zero(&three, ERROR), None);
 }
 
-/// The roots 1 and 1 + d of two forms are different numbers above a few roundings.
+/// The roots 1 and 1 + d of two forms are different numbers if d is larger than a few rounding
+/// errors.
 #[test]
 fn nearly_common_zeros_are_told_apart() {
     for (d, expected) in [(1e-10, None), (1e-6, None), (1e-17, Undecided)] {
@@ -76,9 +77,9 @@ fn nearly_common_zeros_are_told_apart() {
     }
 }
 
-/// The forms are x² + y² − 2·z² and x·y − c·z². With x = r·cos φ, y = r·sin φ, the first gives r² =
-/// 2·z², and the second sin 2φ = c. There are four zeros for |c| < 1, no zeros for |c| > 1, and
-/// double zeros at ±1.
+/// The forms are x² + y² − 2·z² and x·y − c·z². With x = r·cos φ, y = r·sin φ, the first form gives
+/// r² = 2·z², and the second form gives sin 2φ = c. There are four zeros for |c| < 1, no zeros for
+/// |c| > 1, and double zeros at ±1.
 #[test]
 fn three_unknowns() {
     let circle = diagonal([1.0, 1.0, -2.0]);
@@ -94,9 +95,9 @@ fn three_unknowns() {
     assert_eq!(common_zero(&with(1.0), ERROR), Undecided);
 }
 
-/// The forms x·y, y·z, z·x have the axes in common; together with x² − 2y² + 4z² they have no
-/// common zero. No combination is definite both in the directions of the three axes and in
-/// directions such as (1, 1, 1).
+/// The common zeros of the forms x·y, y·z and z·x are the axes. If x² − 2y² + 4z² is added, the
+/// forms have no common zero. No combination is definite both in the directions of the three axes
+/// and in directions such as (1, 1, 1).
 #[test]
 fn no_definite_combination_is_needed_in_three_unknowns() {
     let axes = |i: usize, j: usize| {
@@ -110,9 +111,9 @@ fn no_definite_combination_is_needed_in_three_unknowns() {
     assert_eq!(common_zero(&all, ERROR), None);
 }
 
-/// The forms are the real and the imaginary part of (x + i·y)² = x² − y² + 2i·x·y, and of the
-/// product with (z + i·w)², which vanish only together. The motion is blocked. The traces are zero,
-/// so no combination is definite.
+/// The forms are the real parts and the imaginary parts of (x + i·y)² = x² − y² + 2i·x·y and of (z
+/// + i·w)². All forms vanish together only at zero. The motion is blocked. The traces are zero, so
+/// no combination is definite.
 #[test]
 fn four_unknowns_are_covered() {
     let (x, y, z, w) = (0, 1, 2, 3);
@@ -143,19 +144,19 @@ fn four_unknowns_are_covered() {
 fn nearly_dependent_forms_are_used() {
     let forms = [two(0.0, 0.5, 0.0), two(1e-9, 0.5, -1e-9)];
     assert_eq!(common_zero(&forms, ERROR), None);
-    // With this size, the difference may be an error and therefore zero.
+    // With this size, the difference may be an error, and it may therefore be zero.
     assert_free(&[two(0.0, 0.5, 0.0), two(1e-17, 0.5, -1e-17)]);
 }
 
-/// The remainder of the second form is above its error, but too small to be used. The form x·y
-/// alone has zeros, and it is not known whether they are common.
+/// The remainder of the second form is above its error, but it is too small to be used. The form
+/// x·y alone has zeros, and it is undecided whether these zeros are common.
 #[test]
 fn a_form_above_its_error_is_no_rounding() {
     let forms = [two(0.0, 0.5, 0.0), two(1e-13, 0.5, -1e-13)];
     assert_eq!(common_zero(&forms, ERROR), Undecided);
 }
 
-/// The form x² − s²·y² has the roots ±s. They are simple, if s² is above the error of the
+/// The form x² − s²·y² has the roots ±s. The roots are simple if s² is above the error of the
 /// coefficients.
 #[test]
 fn a_double_zero_is_one_to_the_root_of_the_error() {

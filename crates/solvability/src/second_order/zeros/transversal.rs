@@ -1,9 +1,9 @@
 //! Proves that a common zero with independent gradients exists, by Krawczyk's test on a subspace.
 //!
 //! At a with `a_i = 1`, let J be the gradients in the other unknowns u and A = J⁺. On the subspace
-//! `u = u₀ + A·t` the equations are `G(t) = F(u₀ + A·t) = 0` with `G'(0) = J·A = I`. If
-//! `‖G(0)‖ + ‖I − G'‖·ρ ≤ ρ` in the ball of radius ρ, then `t − G(t)` maps the ball into itself and
-//! has a fixed point there. All norms are enlarged by the errors of the coefficients.
+//! `u = u₀ + A·t` the equations are `G(t) = F(u₀ + A·t) = 0` with `G'(0) = J·A = I`. If `‖G(0)‖ +
+//! ‖I − G'‖·ρ ≤ ρ` in the ball of radius ρ, then `t − G(t)` maps the ball into itself and has a
+//! fixed point in the ball. All norms are enlarged by the errors of the coefficients.
 
 use crate::limits::TRANSVERSAL_STARTS;
 use linalg::{Matrix, small_svd};
@@ -45,7 +45,8 @@ pub(super) fn is_proved(forms: &Independent, a: &[f64]) -> bool {
     // ‖J·A − I‖ is bounded by the errors of J and the rounding of A.
     let slope = steep * 2.0 * error * size * (free.len() as f64).sqrt()
         + f64::EPSILON * 16.0 * count * svd.sigma[0] * steep;
-    // The forms are orthonormal, so the second derivatives of all forms together are below 2·√e.
+    // The forms are orthonormal. Therefore the second derivatives of all forms together are below
+    // 2·√e.
     let curvature = 2.0 * count.sqrt() * steep * steep;
     let radius = 2.0 * residual;
     slope + curvature * radius <= 0.5
