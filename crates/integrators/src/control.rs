@@ -1,10 +1,10 @@
 //! Step-size control from the estimated error: a PI controller with limits.
 //!
-//! The rule is `h_new = h · clamp(safety · err^(−α) · err_old^β)`. This is Gustafsson's controller
-//! in the form of Hairer, Nørsett, Wanner, Solving Ordinary Differential Equations I, 2nd ed., II.4
-//! and of Hairer, Wanner, vol. II, IV.2. It is evaluated with one logarithm and one exponential per
-//! step. The module `drive` handles failures of trials, and each method computes its error
-//! estimate.
+//! The rule is `h_new = h · clamp(safety · err^(−α) · err_old^β)`. The rule is Gustafsson's
+//! controller in the form of Hairer, Nørsett, Wanner, Solving Ordinary Differential Equations I,
+//! 2nd ed., II.4 and of Hairer, Wanner, vol. II, IV.2. The formula is evaluated with one logarithm
+//! and one exponential per step. The module `drive` handles failures of trials, and each method
+//! computes its error estimate.
 
 /// Determines the size of the next trial step.
 pub trait StepControl {
@@ -14,8 +14,8 @@ pub trait StepControl {
     /// Returns the next step size after an accepted step of size `h` with error norm `error` ≤ 1.
     fn accept(&mut self, h: f64, error: f64) -> f64;
 
-    /// Returns the next step size after a trial of size `h` with error norm `error` > 1, possibly
-    /// infinite.
+    /// Returns the next step size after a trial of size `h` with error norm `error` > 1. The error
+    /// norm may be infinite.
     fn reject(&mut self, h: f64, error: f64) -> f64;
 
     /// Returns the next step size after a trial of size `h` that gave no error estimate or was
@@ -39,7 +39,7 @@ pub(crate) struct ControlConstants {
     pub(crate) max_factor: f64,
 }
 
-/// The value ln 1e-4: an err_old below 1e-4 counts as 1e-4.
+/// The value ln 1e-4. An err_old below 1e-4 counts as 1e-4.
 const LOG_ERROR_FLOOR: f64 = -9.210_340_371_976_182;
 
 /// A PI controller and its memory.
@@ -66,7 +66,7 @@ impl StepControl for Control {
         *self = Self::new(self.constants);
     }
 
-    /// Does not increase the step size directly after a rejection.
+    /// The step size is not increased directly after a rejection.
     fn accept(&mut self, h: f64, error: f64) -> f64 {
         let c = self.constants;
         // For an error of 0, ln 0 = −∞ leads to the factor +∞, which is then limited.

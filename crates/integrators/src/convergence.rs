@@ -1,8 +1,8 @@
 //! Decides whether simplified Newton iterations have converged, will not converge, or have reached
-//! the noise of rounding. The module is used by all implicit methods.
+//! the noise of rounding. All implicit methods use this module.
 //!
-//! Source: Hairer, Wanner II, 2nd ed., IV.8, and the constants of the authors' program RADAU5; the
-//! rule for noise is new.
+//! Source: Hairer, Wanner II, 2nd ed., IV.8. The constants are those of the authors' program
+//! RADAU5. The rule for noise is new.
 
 pub(crate) const MAX_ITERATIONS: u32 = 7;
 /// If the convergence rate is at most this value, the matrices are used for another step.
@@ -11,8 +11,8 @@ pub(crate) const GOOD_RATE: f64 = 1e-3;
 const BAD_RATE: f64 = 0.99;
 /// Step-size factor if the convergence rate is not known.
 const FACTOR_WITHOUT_RATE: f64 = 0.5;
-/// An iteration may have reached the noise of rounding if it has converged at this rate before and
-/// then stops converging.
+/// An iteration may have reached the noise of rounding if it first converged at this rate and then
+/// stops converging.
 const RATE_ABOVE_NOISE: f64 = 0.1;
 /// Largest increment of an iteration that has reached this noise, as a fraction of the permitted
 /// error.
@@ -25,7 +25,8 @@ pub(crate) enum Verdict {
     GoOn,
     /// The solution is accurate enough.
     Converged,
-    /// The iteration ends without success; with `factor` times the step size it might converge.
+    /// The iteration ends without success. The iteration might converge with `factor` times the
+    /// step size.
     Diverged { factor: f64 },
 }
 
@@ -36,8 +37,8 @@ pub(crate) struct Convergence {
     pub(crate) iterations: u32,
     /// Smoothed quotient of successive increments.
     pub(crate) rate: f64,
-    /// Bound rate/(1 − rate) on the remaining error relative to the last increment. For a first
-    /// iteration the bound is taken from earlier steps.
+    /// Bound rate/(1 − rate) on the remaining error relative to the last increment. For the first
+    /// iteration, the bound comes from earlier steps.
     remaining: f64,
     norm: f64,
     quotient: f64,
@@ -107,7 +108,7 @@ impl Convergence {
         }
     }
 
-    /// Sets `remaining`; returns a factor of the step size if the remaining iterations will not be
+    /// Sets `remaining`. Returns a factor of the step size if the remaining iterations will not be
     /// sufficient.
     fn factor_if_hopeless(&mut self, permitted: f64) -> Option<f64> {
         if self.rate >= BAD_RATE {

@@ -1,8 +1,8 @@
-//! The integration loop of all methods. It handles trials, rejections, accepted steps, the
+//! The integration loop of all methods. The loop handles trials, rejections, accepted steps, the
 //! intervals between break times, and limits.
 //!
-//! The `Stepper` of a method contains its formulas, `control` the step-size control, and `sample`
-//! the output times.
+//! The `Stepper` of a method contains the formulas of the method. The module `control` contains the
+//! step-size control, and the module `sample` contains the output times.
 
 use crate::error::{Cause, Failure, IntegrationError};
 use crate::interval::{Interval, Leg};
@@ -14,23 +14,23 @@ use crate::statistics::Statistics;
 use crate::step::Step;
 use std::ops::ControlFlow;
 
-/// A step below this many units in the last place of t counts as collapsed: stage times could no
-/// longer be distinguished.
+/// A step below this many units in the last place of t counts as collapsed, because the stage times
+/// could no longer be distinguished.
 const SMALLEST_STEP_IN_EPSILONS: f64 = 16.0;
-/// A step is extended to the next break time or the end if the distance to it is less than this
-/// multiple of the step.
+/// A step is extended to the next break time or to the end of the integration if the distance to it
+/// is less than this multiple of the step.
 const STRETCH: f64 = 1.01;
-/// Distance from an ill-conditioned time at which a step before this time ends, as a fraction of
-/// the largest distance that a step of the same size can cross.
+/// Distance from an ill-conditioned time at which a step before this time ends. The distance is a
+/// fraction of the largest distance that a step of the same size can cross.
 const LEFT_TO_PASS: f64 = 0.8;
 /// If a step ends before an ill-conditioned time at a distance of at most this multiple of its
-/// size, its error may exceed the tolerance by the [`slack`](Delicate::slack) of this time. A step
-/// that leaves nearly its whole size to the next step is still in this range.
+/// size, its error may exceed the tolerance by the [`slack`](Delicate::slack) of this time. This
+/// range includes a step that leaves nearly its whole size to the next step.
 const NEAR: f64 = 2.0;
 /// Number of trials between checks of progress.
 const STRIDE: u64 = 2000;
 /// If a run, at the pace of the last [`STRIDE`] trials, would need this multiple of the permitted
-/// steps, the run is not making progress, because a transient would have ended long before.
+/// steps, the run does not make progress. A transient would have ended long before.
 const HOPELESS: f64 = 1e3;
 /// Step-size factor after a failed evaluation.
 const FACTOR_AFTER_FAILURE: f64 = 0.25;
@@ -45,10 +45,10 @@ const FACTOR_AFTER_HOOK: f64 = 0.5;
 ///
 /// # Errors
 ///
-/// A [`Failure`] with the last good state, its time and the statistics; steps that `observe` has
-/// received stay valid. Its `error` is one of [`DimensionMismatch`], [`NonFiniteInitialState`],
-/// [`InvalidTime`], [`InvalidOption`], [`ToleranceLength`] (before the first evaluation),
-/// [`StartFailed`], [`StepSizeCollapsed`], [`TooManySteps`].
+/// Returns a [`Failure`] with the last good state, its time and the statistics. Steps that
+/// `observe` has received stay valid. The `error` of the failure is one of [`DimensionMismatch`],
+/// [`NonFiniteInitialState`], [`InvalidTime`], [`InvalidOption`], [`ToleranceLength`] (before the
+/// first evaluation), [`StartFailed`], [`StepSizeCollapsed`], [`TooManySteps`].
 ///
 /// [`DimensionMismatch`]: crate::IntegrationError::DimensionMismatch
 /// [`NonFiniteInitialState`]: crate::IntegrationError::NonFiniteInitialState
@@ -150,8 +150,8 @@ pub(crate) fn check<O: Ode>(
     interval.legs()
 }
 
-/// Returns whether a step crosses an ill-conditioned time, or ends at most [`NEAR`] times its size
-/// before it.
+/// Returns whether a step crosses an ill-conditioned time, or ends before it at a distance of at
+/// most [`NEAR`] times its size.
 fn is_near(delicate: &Delicate, trial: &Trial<'_>) -> bool {
     let ahead = |t: f64| (delicate.t - t) / trial.h;
     ahead(trial.t) > 0.0 && ahead(trial.t1) < NEAR
@@ -171,8 +171,8 @@ pub(crate) fn refuse<E: std::error::Error>(
     })
 }
 
-/// Whether error control has failed so close to an ill-conditioned time that smaller steps would
-/// not improve the result.
+/// Whether error control has failed near an ill-conditioned time. Smaller steps would not improve
+/// the result.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Noise {
     None,
@@ -182,8 +182,8 @@ enum Noise {
     Known,
 }
 
-/// States of a trial with their derivatives, and weights of its error. Index 0: start of the step,
-/// 1: its end.
+/// States of a trial with their derivatives, and weights of the error of the trial. Index 0 is the
+/// start of the step, and index 1 is its end.
 struct States {
     y0: Vec<f64>,
     f0: Vec<f64>,
@@ -238,7 +238,8 @@ impl<'a, E: std::error::Error + 'static> Run<'a, E> {
         }
     }
 
-    /// Computes derivative and first step size at the start of an interval between two break times.
+    /// Computes the derivative and the first step size at the start of an interval between two
+    /// break times.
     fn start<O: Ode<Error = E>, S: Stepper<O>>(
         &mut self,
         ode: &mut O,
@@ -309,9 +310,10 @@ impl<'a, E: std::error::Error + 'static> Run<'a, E> {
         finite(&self.states.y0).map_err(|component| failed(Cause::NonFinite { component }))
     }
 
-    /// Changes a step that would reach an ill-conditioned time, so that this or the next step
-    /// crosses that time with the time in the widest gap between its nodes. If smaller steps would
-    /// not improve the result, the step goes over the time from as far away as the slack permits.
+    /// Changes a step that would reach an ill-conditioned time. This step or the next step then
+    /// crosses this time, which lies in the widest gap between the nodes of the step. If smaller
+    /// steps would not improve the result, the step crosses the time from as far away as the slack
+    /// permits.
     fn step_over(&mut self, delicate: Delicate, gap: f64, order: i32) {
         let longest = match self.noise {
             Noise::None => 1.0,
@@ -322,8 +324,8 @@ impl<'a, E: std::error::Error + 'static> Run<'a, E> {
         if distance <= 0.0 || distance >= 1.0 + reach {
             return;
         }
-        // Sizes are in units of h. This step goes over the time if it can be long enough. Otherwise
-        // it ends slightly nearer to the time than the next step can reach.
+        // Sizes are in units of h. This step crosses the time if it can be long enough. Otherwise
+        // it ends at a distance that is slightly shorter than the next step can cross.
         let share = if distance <= reach {
             distance / gap
         } else {
@@ -360,7 +362,8 @@ impl<'a, E: std::error::Error + 'static> Run<'a, E> {
             });
         }
         let t1 = if reaches_end { leg.end } else { t + h };
-        // The difference of the rounded times, so that the integrated interval is the reported one.
+        // The size is the difference of the rounded times. Therefore the integrated interval is the
+        // reported interval.
         Ok(Trial {
             leg,
             t,
@@ -473,8 +476,8 @@ impl<'a, E: std::error::Error + 'static> Run<'a, E> {
         self.t = trial.t1;
         self.failures = 0;
         self.last_rejection = None;
-        // A step that was shortened to end at a break time or before an ill-conditioned time does
-        // not reduce the size of later steps.
+        // A step may have been shortened to end at a break time or before an ill-conditioned time.
+        // Such a step does not reduce the size of later steps.
         let is_cut = trial.t1 == trial.leg.end || self.uncut.is_some();
         let wanted = self.uncut.take().unwrap_or(self.h);
         let mut h = stepper.after_acceptance(trial.h, self.error_norm.unwrap_or(0.0));

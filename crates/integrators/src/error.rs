@@ -11,14 +11,14 @@ pub enum Cause<E: Error + 'static> {
     /// Error control requires shorter steps.
     #[error("error control (the last estimated local error is {norm:.3e} of the permitted one)")]
     ErrorTest {
-        /// Weighted norm of the last estimated error. If the norm is ≤ 1, the step to which it
-        /// belongs was accepted, and error control then required a shorter next step.
+        /// Weighted norm of the last estimated error. If the norm is ≤ 1, the step with this error
+        /// was accepted, and error control then required a shorter next step.
         norm: f64,
     },
     /// A derivative or a new state was not finite.
     #[error("component {component} (counted from 0) of a stage or of the new state is not finite")]
     NonFinite {
-        /// First such component, counted from 0.
+        /// First component that is not finite, counted from 0.
         component: usize,
     },
     /// The right-hand side or the hook returned an error.
@@ -29,8 +29,8 @@ pub enum Cause<E: Error + 'static> {
         "Newton's iteration for the stages does not converge (rate {rate:.2e} after {iterations} iterations)"
     )]
     NewtonDiverges {
-        /// Last increment divided by the previous one; NaN or infinite if an increment is not
-        /// finite.
+        /// Last increment divided by the previous increment. The quotient is NaN or infinite if an
+        /// increment is not finite.
         rate: f64,
         /// Number of iterations with the last Jacobian.
         iterations: u32,
@@ -55,7 +55,7 @@ pub enum IntegrationError<E: Error + 'static> {
     /// The initial state contains a NaN or an infinity.
     #[error("component {component} (counted from 0) of the initial state is {value}")]
     NonFiniteInitialState {
-        /// First such component, counted from 0.
+        /// First component that is NaN or infinite, counted from 0.
         component: usize,
         /// Value of this entry of the state.
         value: f64,
@@ -102,8 +102,8 @@ pub enum IntegrationError<E: Error + 'static> {
         /// End of the interval.
         t_end: f64,
     },
-    /// f could not be evaluated at the start or just after a break time, so a shorter step is
-    /// useless.
+    /// f could not be evaluated at the start or just after a break time. Therefore a shorter step
+    /// is not useful.
     #[error("f(t, y) cannot be evaluated at the start of a step, t = {t}: {cause}")]
     StartFailed {
         /// The time.
@@ -159,7 +159,7 @@ pub enum IntegrationError<E: Error + 'static> {
     },
 }
 
-/// An error with the results that were reached before it.
+/// An error, and the results that were reached before it.
 #[derive(Debug, Clone, PartialEq, Error)]
 #[error("{error}")]
 pub struct Failure<E: Error + 'static> {

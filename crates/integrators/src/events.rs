@@ -32,9 +32,9 @@ pub enum Direction {
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Crossing {
     /// Time of the zero of the dense output, exact to a few units in the last place. At this time g
-    /// is zero or already has its new sign.
+    /// is zero or has already changed its sign.
     pub t: f64,
-    /// Whether g was negative before.
+    /// Whether g was negative before the zero.
     pub is_rising: bool,
 }
 
@@ -45,18 +45,19 @@ const WIDTH_IN_EPSILONS: f64 = 2.0;
 
 /// Finds the zeros of one function g step by step, for use in an observer.
 ///
-/// g is evaluated at eleven points of each step, first in the dense output without extra
-/// evaluations. The accurate dense output is used only in a step in which the sign changes. A zero
-/// at the end of a step belongs to that step; a zero at the start of the integration is ignored.
-/// The search does not detect two zeros between neighbouring points, or a change of sign that a
-/// jump of the state at a break time causes. It detects a contact without change of sign (a grazing
-/// contact) only if g is exactly 0 at one of the points. Limit the step size if g changes faster
-/// than the solution, and search for zeros of dg/dt if contacts matter.
+/// g is evaluated at eleven points of each step. These evaluations use the dense output without
+/// extra evaluations of f. The accurate dense output is used only in a step in which the sign
+/// changes. A zero at the end of a step belongs to this step. A zero at the start of the
+/// integration is ignored. The search does not detect two zeros between neighbouring points, or a
+/// change of sign due to a jump of the state at a break time. The search detects a contact without
+/// change of sign (a grazing contact) only if g is exactly 0 at one of the points. Limit the step
+/// size if g changes faster than the solution. Search for zeros of dg/dt if such contacts are
+/// important.
 ///
 /// # Examples
 ///
-/// The upward zeros of sin t = y, y' = cos t, between 0 and 20: 2π, 4π, 6π (the integration starts
-/// at 0).
+/// The example finds the upward zeros of sin t = y, y' = cos t, between 0 and 20: 2π, 4π, 6π. The
+/// integration starts at 0.
 ///
 /// ```
 /// use pfaff_integrators::{Crossings, Direction, Dop853, Function, Interval, Options, integrate};
@@ -147,7 +148,7 @@ impl Crossings {
     }
 }
 
-/// Returns the boundary with index `i` between the parts of a step; indices 0 and [`PARTS`] are
+/// Returns the boundary with index `i` between the parts of a step. The indices 0 and [`PARTS`] are
 /// exactly the ends of the step.
 fn place(t0: f64, t1: f64, i: u32) -> f64 {
     if i == PARTS {
@@ -180,11 +181,12 @@ fn number<E: Error + 'static>(t: f64, g: f64) -> Result<f64, IntegrationError<E>
 ///
 /// # Errors
 ///
-/// The errors of [`integrate`] and of [`Crossings::locate`].
+/// Returns the errors of [`integrate`] and of [`Crossings::locate`].
 ///
 /// # Examples
 ///
-/// Free fall from 5 m with g = 10 m/s²: on the ground after 1 s with 10 m/s.
+/// In the example, a body falls from 5 m with g = 10 m/s². The body reaches the ground after 1 s at
+/// 10 m/s.
 ///
 /// ```
 /// use pfaff_integrators::{Direction, Dopri5, End, Function, Interval, Options, integrate_until};

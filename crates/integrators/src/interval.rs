@@ -2,10 +2,10 @@
 //! times.
 //!
 //! The code calls the interval between two neighbouring break times a *leg*. A step never crosses
-//! the end of a leg, but ends there exactly. f is evaluated only at times within the leg. At a
-//! break time, the neighbouring floating-point number replaces the time. Therefore f has its left
-//! limit in the previous leg and its right limit in the next leg, for any form of the condition
-//! `if t < …` in the problem.
+//! the end of a leg, but ends exactly at this end. f is evaluated only at times within the leg. At
+//! a break time, the neighbouring floating-point number replaces the time. Therefore f has its left
+//! limit in the previous leg and its right limit in the next leg. This applies to any form of the
+//! condition `if t < …` in the problem.
 
 use crate::error::IntegrationError;
 use std::error::Error;
@@ -15,7 +15,7 @@ use std::error::Error;
 pub struct Interval<'a> {
     /// Start.
     pub t0: f64,
-    /// End; may be smaller than `t0`.
+    /// End; it may be smaller than `t0`.
     pub t_end: f64,
     /// Times at which f or one of its derivatives with respect to t jumps, in any order. A step
     /// ends exactly at each of these times. Times outside the interval are ignored; `t0` and
@@ -35,8 +35,8 @@ impl Interval<'static> {
     }
 }
 
-/// A smooth part of the interval: the part between two neighbouring break times. `inside` are the
-/// first and last times at which f may be evaluated, in the direction of integration.
+/// A smooth part of the interval, which is the part between two neighbouring break times. `inside`
+/// are the first and last times at which f may be evaluated, in the direction of integration.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Leg {
     pub(crate) start: f64,
@@ -54,7 +54,7 @@ impl Leg {
 }
 
 impl Interval<'_> {
-    /// Returns +1 for integration forwards, −1 for integration backwards.
+    /// Returns +1 for integration forwards, or −1 for integration backwards.
     pub(crate) fn direction(&self) -> f64 {
         if self.t_end < self.t0 { -1.0 } else { 1.0 }
     }
@@ -101,7 +101,7 @@ impl Interval<'_> {
             }
         };
         let inside = (towards(start, true), towards(end, false));
-        // Between neighbouring floating-point numbers there is no other number, so two such break
+        // There is no number between neighbouring floating-point numbers. Therefore two such break
         // times have no time between them.
         let inside = if (inside.1 - inside.0) * sign >= 0.0 {
             inside

@@ -8,7 +8,8 @@ use crate::options::Tolerance;
 use crate::statistics::Statistics;
 
 /// A method that can integrate the problem `O`, such as [`Dopri5`](crate::Dopri5). The trait bounds
-/// of a method state its requirements on the problem: explicit methods work for every [`Ode`].
+/// of a method state its requirements on the problem. For example, explicit methods work for every
+/// [`Ode`].
 ///
 /// The trait is sealed, because the loop of [`integrate`](crate::integrate) and the methods depend
 /// on each other.
@@ -42,9 +43,9 @@ pub struct Outcome {
     pub y: Vec<f64>,
     /// Whether `t_end` was reached.
     pub end: End,
-    /// Size > 0 of the next step, before it is shortened by an end or break time. It is the value
-    /// for [`InitialStep::Given`](crate::InitialStep::Given) of an integration that continues from
-    /// here. `None` if there was no step.
+    /// Size > 0 of the next step, before the step is shortened because of an end or a break time.
+    /// Use this value for [`InitialStep::Given`](crate::InitialStep::Given) of an integration that
+    /// continues from this state. `None` if no step was made.
     pub next_step: Option<f64>,
     /// Cost of the integration.
     pub statistics: Statistics,
@@ -73,8 +74,8 @@ pub struct Trial<'a> {
 }
 
 impl Trial<'_> {
-    /// Returns the time of the stage with node `c`. At a break time it is the neighbouring
-    /// floating-point number within the step's interval.
+    /// Returns the time of the stage with node `c`. At a break time, the stage time is the
+    /// neighbouring floating-point number within the interval of the step.
     #[inline]
     pub(crate) fn stage_time(&self, c: f64) -> f64 {
         let t = if c == 1.0 {
@@ -101,14 +102,14 @@ pub struct Ends<'a> {
 #[derive(Debug, Clone, Copy)]
 pub struct Start<'a> {
     pub(crate) y0: &'a [f64],
-    /// Derivative f(t, y0); at a break time the limit from within the step.
+    /// Derivative f(t, y0). At a break time it is the limit from within the step.
     pub(crate) f0: &'a [f64],
     pub(crate) tolerance: &'a Tolerance,
 }
 
-/// Largest relative position of an ill-conditioned time within the step that crosses it. The step
-/// therefore ends farther from the time than it began, and a distance that was sufficient at the
-/// beginning is sufficient at the end.
+/// Largest relative position that an ill-conditioned time may have in the step that crosses it. The
+/// step therefore ends farther from the time than it began. A distance that was sufficient at the
+/// beginning is also sufficient at the end.
 const AHEAD: f64 = 0.45;
 
 /// Returns a relative position in the widest gap between nodes, where 0 and 1 also count as nodes.
@@ -124,8 +125,8 @@ pub(crate) fn widest_gap(nodes: &[f64]) -> f64 {
     (0.5 * (from + to)).min(AHEAD.max(from))
 }
 
-/// The interface of a method to the shared loop: a trial step, its error, the derivative at its
-/// end, and the next step size.
+/// The interface of a method to the shared loop. The method provides a trial step, the error of the
+/// step, the derivative at the end of the step, and the next step size.
 pub trait Stepper<O: Ode>: Dense<O> {
     /// Returns the order of the propagated solution.
     fn order(&self) -> i32;
@@ -191,13 +192,14 @@ pub trait Stepper<O: Ode>: Dense<O> {
     }
 }
 
-/// The interface of a method for dense output. It is object-safe, so that `Step` does not depend on
-/// the method.
+/// The interface of a method for dense output. The trait is object-safe. Therefore `Step` does not
+/// depend on the method.
 pub trait Dense<O: Ode> {
     /// Writes the dense output without further evaluations.
     fn interpolate(&self, ends: &Ends<'_>, theta: f64, out: &mut [f64]);
 
-    /// Performs extra evaluations for [`Dense::interpolate_accurately`], once in an accepted step.
+    /// Performs extra evaluations for [`Dense::interpolate_accurately`], once in each accepted
+    /// step.
     fn prepare(
         &mut self,
         ode: &mut O,

@@ -1,10 +1,10 @@
-//! Tolerances and limits of an integration, as plain data, and their check.
+//! Tolerances and limits of an integration, as plain data, and a check of these values.
 
 use crate::error::IntegrationError;
 use std::error::Error;
 
-/// Options of an integration. `Options::default()` is a good initial choice; the documentation of
-/// each field states its default.
+/// Options of an integration. `Options::default()` is a good initial choice. The documentation of
+/// each field states the default.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Options {
     /// Permitted local error. Default: rtol = 1e-8, atol = 1e-10.
@@ -47,11 +47,12 @@ impl Options {
     }
 }
 
-/// Permitted local error per step and component: `atol + rtol·max(|y0|, |y1|)`, combined as a root
-/// mean square.
+/// Permitted local error of a step in each component: `atol + rtol·max(|y0|, |y1|)`. The components
+/// are combined as a root mean square.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Tolerance {
-    /// The same tolerances for all components. Both are finite and ≥ 0, and not both 0.
+    /// The same tolerances for all components. Both tolerances are finite and ≥ 0, and not both are
+    /// 0.
     Uniform {
         /// Relative part.
         rtol: f64,
@@ -117,8 +118,9 @@ impl Tolerance {
 /// The first trial step.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum InitialStep {
-    /// The first step follows from the sizes of y, f and of the change of f over a small Euler
-    /// step. It costs one evaluation, and is always used after a break time.
+    /// The size of the first step is computed from the sizes of y, of f, and of the change of f
+    /// over a small Euler step. The computation costs one evaluation. This computation is always
+    /// used after a break time.
     Automatic,
     /// The first step has this size (> 0), for either direction of integration.
     Given(f64),

@@ -1,21 +1,22 @@
-//! Computes a root in a bracket by the method ITP (interpolate, truncate, project). It needs at
-//! most one evaluation more than bisection, and converges faster than the secant method if the
-//! function is smooth.
+//! Computes a root in a bracket by the method ITP (interpolate, truncate, project). The method
+//! needs at most one evaluation more than bisection. The method converges faster than the secant
+//! method if the function is smooth.
 //!
 //! Source: I. F. D. Oliveira, R. H. C. Takahashi, An enhancement of the bisection method average
 //! performance preserving minmax optimality, ACM Trans. Math. Softw. 47 (2020) 5, DOI
-//! 10.1145/3423597; its constants κ1 = 0.2/(b − a), κ2 = 2, n0 = 1.
+//! 10.1145/3423597. The constants are κ1 = 0.2/(b − a), κ2 = 2, n0 = 1.
 
-/// One end of a bracket: an argument and its function value.
+/// One end of a bracket, with its argument and its function value.
 pub(crate) type BracketEnd = (f64, f64);
 
-/// Shrinks the bracket from `near` to `far` to a width of at most `width` (> 0). The values at its
-/// ends must have opposite signs, or the far value must be zero. The function returns the far end
-/// of the bracket. The value there is zero or has the sign of the original far value.
+/// Shrinks the bracket from `near` to `far` to a width of at most `width` (> 0). The values at the
+/// ends of the bracket must have opposite signs, or the value at `far` must be zero. The function
+/// returns the far end of the bracket. The value at this end is zero or has the sign of the
+/// original value at `far`.
 ///
 /// # Errors
 ///
-/// Errors of `f`.
+/// Returns the errors of `f`.
 pub(crate) fn bracketed_root<E>(
     near: BracketEnd,
     far: BracketEnd,
@@ -26,9 +27,9 @@ pub(crate) fn bracketed_root<E>(
     let direction = (b - a).signum();
     let length = (b - a).abs();
     let k1 = 0.2 / length;
-    // Number of bisections that reach the width, plus one permitted extra evaluation.
+    // Number of bisections after which the width is reached, plus one permitted extra evaluation.
     let bisections = (length / width).log2().ceil().max(0.0) + 1.0;
-    // Largest distance from the middle that satisfies this bound.
+    // Largest distance from the middle that satisfies the bound on the number of evaluations.
     let mut reach = 0.5 * width * bisections.exp2();
     while f_b != 0.0 && (b - a).abs() > width {
         let (middle, half) = (0.5 * (a + b), 0.5 * (b - a).abs());
@@ -46,8 +47,8 @@ pub(crate) fn bracketed_root<E>(
         } else {
             middle - towards_middle * radius
         };
-        // The middle is used if rounding, or the overflow of a quotient, puts the point outside the
-        // bracket.
+        // The middle is used if the point is outside the bracket because of rounding or because of
+        // the overflow of a quotient.
         let is_inside = (projected - a) * direction > 0.0 && (b - projected) * direction > 0.0;
         let x = if is_inside { projected } else { middle };
         if x == a || x == b {
@@ -95,7 +96,7 @@ mod tests {
                 let (x, count) = root(a, b, width, f);
                 assert!((x - exact).abs() <= 2.0 * width, "{i}: {x:?}");
                 assert!(f(x) == 0.0 || (f(x) > 0.0) == (f(b) > 0.0), "{i}: {x:?}");
-                // The count is one more than for bisection.
+                // The number is one more than for bisection.
                 assert!(count <= 52, "{i}: {count}");
             }
         }

@@ -1,7 +1,7 @@
 //! Rows at given output times, as accurate as the accurate dense output and independent of the step
 //! size.
 //!
-//! The type is intended for observers, together with events and other tasks. The function
+//! The type is intended for observers that also process events or perform other tasks. The function
 //! [`crate::sample()`] also integrates.
 
 use crate::error::IntegrationError;
@@ -14,11 +14,11 @@ use std::ops::ControlFlow;
 /// The output times.
 #[derive(Debug, Clone, PartialEq)]
 pub enum OutputTimes {
-    /// The times t0, t0 ± dt, t0 ± 2·dt, … and `t_end` exactly, with dt > 0. A multiple of dt
-    /// within 1e-9·dt of `t_end` is replaced by `t_end`.
+    /// The times t0, t0 ± dt, t0 ± 2·dt, … and exactly `t_end`, with dt > 0. A multiple of dt whose
+    /// distance from `t_end` is below 1e-9·dt is replaced by `t_end`.
     Every(f64),
-    /// These times within the interval, including its ends. The times must be strictly monotonic in
-    /// the direction of integration.
+    /// The given times within the interval, including its ends. The times must be strictly
+    /// monotonic in the direction of integration.
     At(Vec<f64>),
 }
 
@@ -26,7 +26,8 @@ pub enum OutputTimes {
 ///
 /// # Examples
 ///
-/// Free fall, y = t²: rows at 0, 0.4, 0.8 and 1, with a count of the steps.
+/// The example is free fall, y = t². The output has rows at 0, 0.4, 0.8 and 1, and counts the
+/// steps.
 ///
 /// ```
 /// use pfaff_integrators::{Dopri5, Function, Interval, Options, OutputTimes, Rows, integrate};
@@ -96,8 +97,8 @@ impl Rows {
     }
 
     /// Calls `row` with the problem, the time and the state at all output times up to the end of
-    /// `step`. A change of the state by `row` (for example a projection) has no effect on the
-    /// integration. After `row` returns `Break`, it is not called again.
+    /// `step`. If `row` changes the state (for example by a projection), the integration is not
+    /// affected. After `row` returns `Break`, it is not called again.
     ///
     /// # Errors
     ///
@@ -111,11 +112,11 @@ impl Rows {
         self.emit_until(step.t1(), step, row)
     }
 
-    /// Works like [`Rows::emit`], but not beyond `t_stop`, at which an event ends the motion.
+    /// Works like [`Rows::emit`], but not beyond `t_stop`. At this time an event ends the motion.
     ///
     /// # Errors
     ///
-    /// Errors of [`Rows::emit`].
+    /// Returns the errors of [`Rows::emit`].
     pub fn emit_until<O: Ode>(
         &mut self,
         t_stop: f64,
@@ -149,7 +150,7 @@ impl Rows {
     }
 }
 
-/// A row closer to t_end than this fraction of dt is replaced by t_end.
+/// A row whose distance from t_end is below this fraction of dt is replaced by t_end.
 const SAME_ROW: f64 = 1e-9;
 
 impl OutputTimes {
@@ -187,8 +188,8 @@ impl OutputTimes {
                 .and_then(|i| times.get(i))
                 .copied(),
             Self::Every(dt) => {
-                // The time is a product, not a sum, so that rounding does not accumulate. A row
-                // with index i exists if i·dt is below the length.
+                // The time is a product and not a sum. Therefore rounding does not accumulate. A
+                // row with index i exists if i·dt is below the length.
                 let length = (interval.t_end - interval.t0).abs();
                 let before_end = |i: u64| length - i as f64 * dt > SAME_ROW * dt.min(length);
                 if index == 0 || before_end(index) {

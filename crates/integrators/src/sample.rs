@@ -1,4 +1,4 @@
-//! Integrates, and passes on rows at given output times.
+//! Integrates, and calls a function for rows at given output times.
 
 use crate::drive::{check, integrate, refuse};
 use crate::error::Failure;
@@ -12,16 +12,18 @@ use std::ops::ControlFlow;
 /// Integrates like [`integrate`] and calls `row` at each of `times`, in order, with the problem,
 /// the time and the state.
 ///
-/// `row` may change the state (for example, project it) without effect on the integration. Within
-/// steps the state comes from [`crate::Step::interpolate_accurately`]; at t0 it is the given `y0`.
+/// If `row` changes the state (for example by a projection), the integration is not affected.
+/// Within steps the state comes from [`crate::Step::interpolate_accurately`]; at t0 it is the given
+/// `y0`.
 ///
 /// # Errors
 ///
-/// Errors of [`integrate`], of [`Rows::new`] and of [`Rows::emit`]. All previous rows are valid.
+/// Returns the errors of [`integrate`], of [`Rows::new`] and of [`Rows::emit`]. All previous rows
+/// are valid.
 ///
 /// # Examples
 ///
-/// Free fall, y = t²: rows at 0, 0.4, 0.8 and at the end.
+/// The example is free fall, y = t². The output has rows at 0, 0.4, 0.8 and at the end.
 ///
 /// ```
 /// use pfaff_integrators::{Dopri5, Function, Interval, Options, OutputTimes, sample};

@@ -9,8 +9,8 @@ use crate::interval::Leg;
 use crate::ode::{Ode, evaluate};
 use crate::statistics::Statistics;
 
-/// If y or f is too small to determine a scale, this is the size of the exploratory step, and the
-/// estimate of the first step; in units of t.
+/// Size of the exploratory step, and estimate of the first step, if y or f is too small to
+/// determine a scale; in units of t.
 const SMALL_STEP: f64 = 1e-6;
 /// If a sum of squares is at most this value, it determines no scale.
 const NO_SCALE: f64 = 1e-10;
@@ -22,12 +22,13 @@ pub(crate) struct StartScratch<'a> {
     pub(crate) f: &'a mut [f64],
 }
 
-/// Returns the signed first step for a method of order `order` from (`leg.start`, `y0`), where f0
-/// is the value of f there; |h| ≤ `h_max`.
+/// Returns the signed first step for a method of order `order` from (`leg.start`, `y0`). f0 must be
+/// the value of f at this point. |h| is at most `h_max`.
 ///
-/// An explicit Euler step of 1 % of |y|/|f| measures the second derivative. Then h is chosen so
-/// that `h^order · max(|f|, |f'|) = 0.01` in the norm with weights `scale`. If f cannot be
-/// evaluated after the Euler step, 1 % of that step is used, and error control adapts it.
+/// An explicit Euler step of 1 % of |y|/|f| is used to estimate the second derivative. Then h is
+/// chosen so that `h^order · max(|f|, |f'|) = 0.01` in the norm with weights `scale`. If f cannot
+/// be evaluated after the Euler step, 1 % of the Euler step is used, and error control adapts this
+/// size.
 pub(crate) fn initial_step<O: Ode>(
     ode: &mut O,
     leg: &Leg,

@@ -14,13 +14,14 @@ pub struct Statistics {
     pub output_evaluations: u64,
     /// Evaluations of f reported by [`crate::Ode::end_of_step`].
     pub hook_evaluations: u64,
-    /// Evaluations of a Jacobian or of the matrices of a constrained problem; evaluations of f for
+    /// Evaluations of a Jacobian or of the matrices of a constrained problem. Evaluations of f for
     /// differences are not counted in `evaluations`.
     pub jacobians: u64,
-    /// Factorisations for one step size; a real and a complex factorisation (Radau IIA) count once.
+    /// Factorisations for one step size. A real and a complex factorisation (Radau IIA) count as
+    /// one.
     pub factorisations: u64,
-    /// Solutions of a linear system; a real and a complex solution of the same iteration count
-    /// once.
+    /// Solutions of a linear system. A real and a complex solution of the same iteration count as
+    /// one.
     pub solves: u64,
     /// Iterations of Newton's method.
     pub newton_iterations: u64,
@@ -45,7 +46,7 @@ impl Statistics {
         self.rejected_by_error + self.rejected_by_failure + self.rejected_by_hook
     }
 
-    /// Returns all evaluations of f: for steps, in the hook and for output.
+    /// Returns the number of all evaluations of f: for steps, in the hook and for output.
     #[must_use]
     pub fn total_evaluations(&self) -> u64 {
         self.evaluations + self.hook_evaluations + self.output_evaluations

@@ -1,4 +1,5 @@
-//! An accepted step as passed to the observer: both ends, and the solution between them.
+//! An accepted step as passed to the observer. The step contains both ends, and the solution
+//! between them.
 
 use crate::error::Cause;
 use crate::method::{Dense, Ends};
@@ -36,12 +37,12 @@ pub enum OutputError<E: Error + 'static> {
 
 /// An accepted step from (t0, y0) to (t1, y1); y1 is the state after projection by the hook.
 ///
-/// The dense outputs of all methods equal y0 at t0 and y1 at t1. The derivatives of both at the
-/// ends are f(t0, y0) and f(t1, y1). Therefore both outputs are continuously differentiable over
-/// all steps between two break times, with and without projection. (The outputs of
-/// [`Radau5`](crate::Radau5) are continuous, and their derivatives are correct up to the error of
-/// the output.) Between the ends of a step, the outputs do not satisfy constraints, so project rows
-/// before writing them.
+/// The dense outputs of all methods equal y0 at t0 and y1 at t1. The derivatives of the dense
+/// outputs at the ends are f(t0, y0) and f(t1, y1). Therefore the outputs with and without extra
+/// evaluations are continuously differentiable over all steps between two break times, with and
+/// without projection. (The outputs of [`Radau5`](crate::Radau5) are continuous, and their
+/// derivatives are correct up to the error of the output.) Between the ends of a step, the outputs
+/// do not satisfy constraints. Therefore project rows before you write them.
 pub struct Step<'a, O: Ode> {
     ode: &'a mut O,
     dense: &'a mut dyn Dense<O>,
@@ -93,39 +94,38 @@ impl<'a, O: Ode> Step<'a, O> {
         self.ends.y1
     }
 
-    /// Returns the derivative at the start; at a break time the limit from within the step.
+    /// Returns the derivative at the start. At a break time it is the limit from within the step.
     #[must_use]
     pub fn f0(&self) -> &'a [f64] {
         self.ends.f0
     }
 
-    /// Returns the derivative at the end, of the projected state; at a break time the limit from
-    /// within the step.
+    /// Returns the derivative of the projected state at the end. At a break time it is the limit
+    /// from within the step.
     #[must_use]
     pub fn f1(&self) -> &'a [f64] {
         self.ends.f1
     }
 
-    /// Returns the weighted norm of the estimated local error, at most 1.
+    /// Returns the weighted norm of the estimated local error. The norm is at most 1.
     #[must_use]
     pub fn error_norm(&self) -> f64 {
         self.error_norm
     }
 
-    /// Counts so far, including this step.
+    /// Returns the counts so far, including this step.
     #[must_use]
     pub fn statistics(&self) -> &Statistics {
         self.statistics
     }
 
-    /// Returns the differential equations of this integration, so that an observer can evaluate
-    /// them.
+    /// Returns the differential equations of this integration. An observer can thus evaluate them.
     pub fn ode(&mut self) -> &mut O {
         self.ode
     }
 
     /// Writes y(t) to `out` (length n) without evaluating f. The interpolated state is less
-    /// accurate than the states at the ends of steps; the documentation of each method states its
+    /// accurate than the states at the ends of steps. The documentation of each method states its
     /// order. The interpolated state is suitable for drawings and for locating events
     /// approximately.
     ///
@@ -138,7 +138,7 @@ impl<'a, O: Ode> Step<'a, O> {
         Ok(())
     }
 
-    /// Works like [`Step::interpolate`], for a t known to be within the step.
+    /// Works like [`Step::interpolate`]. The time t must be within the step.
     pub(crate) fn write_cheaply(&self, t: f64, out: &mut [f64]) {
         match self.place(t) {
             Place::Start => out.copy_from_slice(self.ends.y0),
@@ -165,7 +165,7 @@ impl<'a, O: Ode> Step<'a, O> {
             .map_err(OutputError::Evaluation)
     }
 
-    /// Works like [`Step::interpolate_accurately`], for a t known to be within the step.
+    /// Works like [`Step::interpolate_accurately`]. The time t must be within the step.
     pub(crate) fn write_accurately(
         &mut self,
         t: f64,

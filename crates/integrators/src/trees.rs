@@ -4,7 +4,7 @@
 //! A Runge–Kutta formula with weights b(θ) has order p if `Σ b_i(θ)·Φ_i(τ) = θ^|τ| / γ(τ)` for all
 //! rooted trees τ with at most p nodes. Source: Hairer, Nørsett, Wanner I, 2nd ed., II.2 and II.6.
 
-/// A rooted tree: the sorted subtrees at its root.
+/// A rooted tree, represented by the sorted subtrees at its root.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
 struct Tree(Vec<Tree>);
 
@@ -44,7 +44,8 @@ impl Tree {
     }
 }
 
-/// Returns all trees with `order` nodes: a root with subtrees of every composition of order − 1.
+/// Returns all trees with `order` nodes. Each tree is a root with subtrees of a composition of
+/// order − 1.
 fn trees(order: i32) -> Vec<Tree> {
     fn forests(nodes: i32, largest: i32) -> Vec<Vec<Tree>> {
         if nodes == 0 {
@@ -75,8 +76,8 @@ fn dot<const S: usize>(a: &[f64; S], b: &[f64; S]) -> f64 {
     a.iter().zip(b).map(|(x, y)| x * y).sum()
 }
 
-/// Returns the defects of `weights` at θ in the conditions of one order, each with the symmetry of
-/// its tree.
+/// Returns the defects of `weights` at θ in the conditions of one order. Each defect is returned
+/// with the symmetry of its tree.
 fn defects<const S: usize>(
     a: &[[f64; S]; S],
     weights: &[f64; S],
@@ -103,8 +104,8 @@ pub(crate) fn violation<const S: usize>(
     defects.iter().map(|d| d.0.abs()).fold(0.0, f64::max)
 }
 
-/// Computes the Euclidean norm of the error coefficients of one order, each divided by the symmetry
-/// of its tree.
+/// Computes the Euclidean norm of the error coefficients of one order. Each coefficient is divided
+/// by the symmetry of its tree.
 pub(crate) fn error_size<const S: usize>(
     a: &[[f64; S]; S],
     weights: &[f64; S],

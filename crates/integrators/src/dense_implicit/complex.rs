@@ -45,8 +45,8 @@ impl Mul for Complex {
 impl Div for Complex {
     type Output = Self;
 
-    /// Smith's formula forms neither |b|² nor its inverse, so that no intermediate result overflows
-    /// before the quotient.
+    /// Smith's formula computes neither |b|² nor its inverse. Therefore no intermediate result
+    /// overflows before the quotient.
     fn div(self, b: Self) -> Self {
         if b.re.abs() >= b.im.abs() {
             let ratio = b.im / b.re;

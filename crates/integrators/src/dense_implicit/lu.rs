@@ -11,7 +11,7 @@ use std::ops::{Add, Div, Mul, Sub};
 pub(crate) trait Scalar:
     Copy + Default + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Div<Output = Self>
 {
-    /// Returns the size for the comparison of pivots: |x|, or |Re x| + |Im x|.
+    /// Returns the size by which pivots are compared: |x|, or |Re x| + |Im x|.
     fn size(self) -> f64;
 }
 
@@ -27,13 +27,13 @@ impl Scalar for Complex {
     }
 }
 
-/// The factors of an n×n matrix; `Lu::new` allocates them, [`Lu::factor`] computes them.
+/// The factors of an n×n matrix. `Lu::new` allocates the factors, and [`Lu::factor`] computes them.
 #[derive(Debug, Clone)]
 pub(crate) struct Lu<T> {
     n: usize,
-    /// Entries row by row: U with its diagonal, and below it the multipliers of L.
+    /// Entries row by row. U is on and above the diagonal, and the multipliers of L are below it.
     a: Vec<T>,
-    /// Row exchanged with row k in step k.
+    /// The row that is exchanged with row k in step k.
     exchanged: Vec<usize>,
 }
 
@@ -47,7 +47,7 @@ impl<T: Scalar> Lu<T> {
     }
 
     /// Decomposes the matrix with the entries `entry(row, column)`. The result `Err(k)` means that
-    /// column k has no pivot, because no entry is non-zero and finite.
+    /// column k has no pivot, because none of its entries is non-zero and finite.
     pub(crate) fn factor(&mut self, entry: impl Fn(usize, usize) -> T) -> Result<(), usize> {
         let n = self.n;
         for (i, row) in self.a.chunks_exact_mut(n.max(1)).enumerate() {
@@ -109,8 +109,8 @@ impl<T: Scalar> Lu<T> {
 mod tests {
     use super::*;
 
-    /// A matrix with 1 + i on the diagonal that needs exchanges; the solutions are known by
-    /// construction.
+    /// A matrix with 1 + i on the diagonal. The decomposition of the matrix needs exchanges, and
+    /// the solutions are known by construction.
     #[test]
     fn solves_with_exchanges_and_names_the_column_without_pivot() {
         let a = [[0.0, 2.0, 1.0], [4.0, 1.0, 0.0], [2.0, 0.0, 3.0]];

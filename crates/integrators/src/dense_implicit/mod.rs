@@ -15,7 +15,8 @@ use thiserror::Error;
 ///
 /// # Examples
 ///
-/// y' = −10⁶·(y − cos t), y(0) = 1: y(1) = cos 1 + 10⁻⁶·sin 1 + … = 0.540303147.
+/// The example solves y' = −10⁶·(y − cos t), y(0) = 1. The exact result is y(1) = cos 1 + 10⁻⁶·sin
+/// 1 + … = 0.540303147.
 ///
 /// ```
 /// use pfaff_integrators::{DenseImplicit, Function, Interval, Options, Radau5, integrate};
@@ -47,7 +48,7 @@ pub trait Jacobian<O: Ode> {
     ///
     /// # Errors
     ///
-    /// Errors of the problem.
+    /// Returns errors of the problem.
     fn write(&mut self, ode: &mut O, t: f64, y: &[f64], j: &mut [f64]) -> Result<(), O::Error>;
 }
 
@@ -58,7 +59,7 @@ impl<O: Ode, F: FnMut(f64, &[f64], &mut [f64])> Jacobian<O> for F {
     }
 }
 
-/// Forward differences with increments `√(eps·max(10⁻⁵, |y_k|))`, as in the program RADAU5. These
+/// Forward differences with increments `√(eps·max(10⁻⁵, |y_k|))`, as in the program RADAU5. The
 /// differences need n + 1 evaluations of f.
 #[derive(Debug, Clone, Default)]
 pub struct Differences {
@@ -79,7 +80,7 @@ impl<O: Ode> Jacobian<O> for Differences {
             let increment = (f64::EPSILON * y[k].abs().max(1e-5)).sqrt();
             self.y[k] = y[k] + increment;
             ode.rhs(t, &self.y, &mut self.f_k)?;
-            // The actual increment after rounding is used, not the intended one.
+            // The actual increment after rounding is used instead of the intended increment.
             let increment = self.y[k] - y[k];
             for i in 0..n {
                 j[i * n + k] = (self.f_k[i] - self.f[i]) / increment;
@@ -97,7 +98,7 @@ pub enum DenseError<E: Error + 'static> {
     /// An error of the wrapped problem.
     #[error("{0}")]
     Problem(#[source] E),
-    /// `a·I − J` has no inverse in floating-point numbers.
+    /// The matrix `a·I − J` has no inverse in floating-point numbers.
     #[error(
         "the iteration matrix a·I − J, a = {re:.3e} + {im:.3e}i, is singular: no pivot in column {column} (counted from 0)"
     )]

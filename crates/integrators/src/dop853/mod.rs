@@ -1,5 +1,5 @@
-//! Dormand–Prince 8(5,3): twelve stages, order 8, error estimates of order 5 and 3 combined, dense
-//! output of order 6 and 8.
+//! Dormand–Prince 8(5,3): twelve stages and order 8. Error estimates of order 5 and 3 are combined.
+//! The dense outputs have the orders 6 and 8.
 //!
 //! Source: the program DOP853 of E. Hairer and G. Wanner; Hairer, Nørsett, Wanner, Solving Ordinary
 //! Differential Equations I, 2nd ed., II.5, II.10. The dense outputs were developed for this crate.
@@ -16,11 +16,11 @@ use crate::method::Method;
 use crate::ode::Ode;
 use tableau::{STAGES, STEP_STAGES};
 
-/// Dormand–Prince 8(5,3), the method for smooth problems with tolerances of 1e-6 and below. It has
-/// order 8. An accepted step costs twelve evaluations, including the derivative at its end; a
-/// rejected step costs eleven. The dense output has order 6 (local error O(h⁷)) without extra
-/// evaluations, and order 8 (local error O(h⁹), like the step) with six extra evaluations in the
-/// step.
+/// Dormand–Prince 8(5,3), the method for smooth problems with tolerances of 1e-6 and below. The
+/// method has order 8. An accepted step costs twelve evaluations, including the derivative at its
+/// end; a rejected step costs eleven. The dense output has order 6 (local error O(h⁷)) without
+/// extra evaluations, and order 8 (local error O(h⁹), like the step) with six extra evaluations in
+/// the step.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Dop853;
 
@@ -32,7 +32,7 @@ impl<O: Ode> Method<O> for Dop853 {
     }
 }
 
-/// The constants of the program DOP853, without memory of the previous error.
+/// The constants of the program DOP853. The controller has no memory of the previous error.
 const CONTROL: ControlConstants = ControlConstants {
     alpha: 1.0 / 8.0,
     beta: 0.0,

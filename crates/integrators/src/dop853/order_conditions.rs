@@ -4,8 +4,8 @@ use super::dense::weights;
 use super::tableau::{A, C, D, E3, E5, FREE, STAGES, STEP_STAGES};
 use crate::trees::{error_size, violation};
 
-/// Bound on the rounding error of sums of up to 12 products of size ≤ 50, with weights ≤ 6.
-/// Computed with 40 digits, the defects of the rounded table are ≤ 7.2e-16.
+/// Bound on the rounding error of sums of up to 12 products of size ≤ 50, with weights ≤ 6. The
+/// defects of the rounded table, computed with 40 digits, are ≤ 7.2e-16.
 const TOLERANCE: f64 = 1e-14;
 /// The same bound for the dense outputs, whose coefficients of up to 2690 are multiplied by at most
 /// 1/256.
@@ -102,7 +102,8 @@ fn error_coefficients_of_the_free_output_are_small() {
     assert!(free < 2.4e-5, "{free:e}");
 }
 
-/// Within the step, the error coefficients do not exceed the error coefficients at its end.
+/// Within the step, the error coefficients do not exceed the error coefficients at the end of the
+/// step.
 #[test]
 fn accurate_output_is_as_accurate_as_the_step() {
     let at_end = error_size(&A, &step_weights(), 9, 1.0);
@@ -114,7 +115,7 @@ fn accurate_output_is_as_accurate_as_the_step() {
 }
 
 /// Rounding is not amplified. The test computes sums of the weights of the accurate output (12.907
-/// at the end of the step) and of its stages.
+/// at the end of the step) and of the stages of this output.
 #[test]
 fn weights_of_the_accurate_output_are_small() {
     let size = |b: &[f64; STAGES]| b.iter().map(|b| b.abs()).sum::<f64>();

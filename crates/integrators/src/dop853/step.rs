@@ -52,9 +52,9 @@ impl<O: Ode> Stepper<O> for Dop853Stages {
         Ok(())
     }
 
-    /// Returns `h·err5·(err5 / √(err5² + 0.01·err3²))` in the norm. This is the estimate of order 5
-    /// times a factor of about h², so the result is proportional to h⁸; Hairer, Nørsett, Wanner I,
-    /// II.10, (10.17).
+    /// Returns `h·err5·(err5 / √(err5² + 0.01·err3²))` in the norm. The result is the estimate of
+    /// order 5 times a factor of about h². Therefore the result is proportional to h⁸; see Hairer,
+    /// Nørsett, Wanner I, II.10, (10.17).
     fn error_norm(
         &mut self,
         _ode: &mut O,
@@ -116,8 +116,8 @@ struct Dop853Step<'a, O> {
 }
 
 impl<O: Ode> Dop853Step<'_, O> {
-    /// Writes `y0 + h·Σ a_sj·k_j` to y. `used` lists the j with coefficients, and `k` begins with
-    /// stage 1.
+    /// Writes `y0 + h·Σ a_sj·k_j` to y. `used` lists the indices j of the nonzero coefficients, and
+    /// `k` begins with stage 1.
     #[inline]
     fn argument<const N: usize>(&self, s: usize, used: [usize; N], k: &[Vec<f64>], y: &mut [f64]) {
         let of = |j: usize| if j == 0 { self.start.f0 } else { &k[j - 1][..] };

@@ -1,11 +1,11 @@
 //! The coefficients, to full precision. The module `order_conditions` checks them with order
 //! conditions that are generated from rooted trees, not copied from a table.
 //!
-//! The method and its error estimators are those of the program DOP853 of Hairer and Wanner;
-//! source: Hairer, Nørsett, Wanner I, 2nd ed., II.5. Stages 14 to 19, [`D`] and [`FREE`] were
+//! The method and its error estimators are those of the program DOP853 of Hairer and Wanner.
+//! Source: Hairer, Nørsett, Wanner I, 2nd ed., II.5. Stages 14 to 19, [`D`] and [`FREE`] were
 //! derived for this crate, see `dense`.
 
-/// Stages 1 to 12, then stage 13, which is the derivative at the end.
+/// Number of stages of a step: stages 1 to 12, and stage 13, which is the derivative at the end.
 pub(super) const STEP_STAGES: usize = 13;
 /// Number of stages including the six of the accurate dense output.
 pub(super) const STAGES: usize = STEP_STAGES + 6;
@@ -85,13 +85,15 @@ pub(super) const A: [[f64; STAGES]; STAGES] = [
      -0.015_279_510_626_880_792, -0.098_251_590_752_552_46, 0.183_694_477_064_848, 0.109_190_882_246_619_87, 0.0, 0.0, 0.0],
 ];
 
-/// Weights of the estimated error of order 5: order 8 minus an embedded solution of order 5.
+/// Weights of the estimated error of order 5, which is the solution of order 8 minus an embedded
+/// solution of order 5.
 #[rustfmt::skip]
 pub(super) const E5: [f64; 12] =
     [0.013_120_044_994_194_88, 0.0, 0.0, 0.0, 0.0, -1.225_156_446_376_204_4, -0.495_758_949_657_250_2, 1.664_377_182_454_986_4,
      -0.350_328_848_749_973_66, 0.334_179_118_713_017_5, 0.081_923_206_485_115_71, -0.022_355_307_863_886_294];
 
-/// Weights of the estimated error of order 3: order 8 minus an embedded solution of order 3.
+/// Weights of the estimated error of order 3, which is the solution of order 8 minus an embedded
+/// solution of order 3.
 #[rustfmt::skip]
 pub(super) const E3: [f64; 12] =
     [-0.189_800_754_072_407_62, 0.0, 0.0, 0.0, 0.0, 4.450_312_892_752_409, 1.891_517_899_314_500_3, -5.801_203_960_010_585,

@@ -7,17 +7,16 @@
 //! u(θ) = p(θ) + D·φ(θ) + θ²(3 − 2θ)·c,   φ(θ) = ∫₀^θ (s − c₁)(s − c₂)(s − 1)/(−c₁c₂) ds
 //! ```
 //!
-//! corrects the start by its defect D = h·f0 − p'(0) and leaves the other values unchanged. The
+//! corrects the start by the defect D = h·f0 − p'(0) and leaves the other values unchanged. The
 //! reason is that φ(1) = 0, because the Radau quadrature is exact for cubics, and that φ' = 0 at
 //! the nodes. Here c is the change of y1 by a projection. In a stiff problem, rounding of y0 leads
-//! to a large D. Therefore D is filtered by (I − h/u₁·J)⁻¹, which changes it by O(h⁵) if the
-//! problem is smooth. The filtered D is the error estimate (times u₁), which has already been
+//! to a large D. Therefore D is filtered by (I − h/u₁·J)⁻¹. If the problem is smooth, the filter
+//! changes D by O(h⁵). The filtered D is the error estimate (times u₁), which has already been
 //! computed.
 //!
 //! **Order 5** (local error O(h⁶)). This output is the sum of u and a quintic that vanishes at both
-//! ends. The derivatives of the quintic at θ = 0, ¼, ¾ and 1 are the defects of u,
-//! `h·f(t, u) − u'`, filtered in the same way. The output needs two extra evaluations (the same
-//! idea as in `dopri5`).
+//! ends. The derivatives of the quintic at θ = 0, ¼, ¾ and 1 are the defects of u, `h·f(t, u) −
+//! u'`, filtered in the same way. The output needs two extra evaluations (as in `dopri5`).
 
 use super::Radau5Stages;
 use super::newton::dot;
@@ -90,7 +89,7 @@ impl Radau5Stages {
 struct Quartic<'a> {
     ends: &'a Ends<'a>,
     z: &'a [Vec<f64>; 3],
-    /// Filtered defect at the start divided by u₁.
+    /// The filtered defect at the start, divided by u₁.
     defect: &'a [f64],
 }
 
@@ -136,8 +135,8 @@ pub(super) fn start_weight_derivative(theta: f64) -> f64 {
     (theta - a) * (theta - b) * (theta - 1.0) / (-a * b)
 }
 
-/// Returns the polynomials of degree 5 that vanish at θ = 0 and 1 and are dual to the derivatives
-/// at the four positions.
+/// Returns the polynomials of degree 5 that vanish at θ = 0 and 1. The polynomials are dual to the
+/// derivatives at the four positions.
 pub(super) fn defect_weights(theta: f64) -> [f64; 4] {
     let x = theta;
     let rest = 1.0 - x;

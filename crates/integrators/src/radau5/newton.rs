@@ -23,8 +23,8 @@ use crate::statistics::Statistics;
 /// Iterations stop if their increments are below this many units of rounding of the state.
 const ROUNDING: f64 = 10.0 * f64::EPSILON;
 impl Radau5Stages {
-    /// Computes starting values from the extrapolated collocation polynomial of the last step, or
-    /// zero if there is no last step.
+    /// Computes starting values from the extrapolated collocation polynomial of the last step. The
+    /// starting values are zero if there is no last step.
     pub(super) fn predict(&mut self, h: f64) {
         let Some(h_before) = self.before.h else {
             for v in self.z.iter_mut().chain(&mut self.newton.w) {
@@ -69,7 +69,7 @@ impl Radau5Stages {
         }
     }
 
-    /// Writes Δw at the current z, w to `k`.
+    /// Writes Δw at the current values z and w to `k`.
     fn increment<O: Implicit>(
         &mut self,
         ode: &mut O,
@@ -107,8 +107,8 @@ impl Radau5Stages {
             .map_err(|component| Cause::NonFinite { component })
     }
 
-    /// Returns the weighted norm of the last increments, with the current end of the step in the
-    /// weights, and the largest permitted norm at the end.
+    /// Returns the weighted norm of the last increments, and the largest norm that is permitted at
+    /// the end. The weights contain the current end of the step.
     fn increment_norm(&mut self, start: &Start<'_>) -> (f64, f64) {
         for ((y, y0), z) in self.y.iter_mut().zip(start.y0).zip(&self.z[2]) {
             *y = y0 + z;

@@ -1,4 +1,4 @@
-//! One trial step, its estimated error and the size of the next one.
+//! One trial step, its estimated error and the size of the next step.
 
 use super::newton::dot;
 use super::scale::set_scale;
@@ -12,16 +12,16 @@ use crate::method::{Start, Stepper, Trial, widest_gap};
 use crate::ode::{evaluate, finite};
 use crate::statistics::Statistics;
 
-/// If the step size differs by less than this fraction, the factors are reused: Newton's method
+/// If the step size differs by less than this fraction, the factors are reused. Newton's method
 /// then still converges at a good rate.
 const SAME_SIZE: f64 = 1e-3;
-/// If a step size could increase by less than this factor, the size and the factors are used again.
+/// If a step size could increase by less than this factor, the size and the factors are reused.
 const WORTH_GROWING: f64 = 1.2;
-/// Smallest error with which the predictive controller compares.
+/// Lower bound of the error with which the predictive controller compares.
 const SMALLEST_REFERENCE: f64 = 1e-2;
 
 impl Radau5Stages {
-    /// Computes J and its factors for this trial, if new ones are needed.
+    /// Computes J and its factors for this trial if new factors are needed.
     fn prepare_matrices<O: Implicit>(
         &mut self,
         ode: &mut O,
@@ -50,7 +50,7 @@ impl Radau5Stages {
         Ok(())
     }
 
-    /// Computes `error ← (u₁/h·I − J)⁻¹·(f + Σ E_i·z_i/h)`; `error` contains f on entry.
+    /// Computes `error ← (u₁/h·I − J)⁻¹·(f + Σ E_i·z_i/h)`. On entry, `error` contains f.
     fn filter_estimate<O: Implicit>(
         &mut self,
         ode: &mut O,
@@ -166,10 +166,10 @@ impl<O: Implicit> Stepper<O> for Radau5Stages {
         self.filter_twice = true;
     }
 
-    /// Returns the smaller of two proposals: the classical one, and the predictive one of
-    /// Gustafsson, which continues the trend of the error. Many iterations have the same effect as
-    /// a larger error. If the size would change only slightly, the size and the factors are used
-    /// again.
+    /// Returns the smaller of two proposals. One proposal is that of the classical controller. The
+    /// other proposal is that of Gustafsson's predictive controller, which extrapolates the trend
+    /// of the error. Many iterations have the same effect as a larger error. If the size would
+    /// change only slightly, the size and the factors are reused.
     fn after_acceptance(&mut self, h: f64, error_norm: f64) -> f64 {
         let effort = self.effort();
         let mut next = self.control.accept(h, error_norm * effort.powi(4));
@@ -207,8 +207,8 @@ impl<O: Implicit> Stepper<O> for Radau5Stages {
 }
 
 impl Radau5Stages {
-    /// Returns (n + 2·n_max)/(1 + 2·n_max) for n iterations: the cost of the last step relative to
-    /// its smallest possible cost.
+    /// Returns (n + 2·n_max)/(1 + 2·n_max) for n iterations. The result is the cost of the last
+    /// step relative to its smallest possible cost.
     fn effort(&self) -> f64 {
         let (n, n_max) = (
             f64::from(self.newton.convergence.iterations),

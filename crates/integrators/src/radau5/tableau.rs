@@ -1,7 +1,7 @@
 //! The coefficients: nodes, the transformation that makes A⁻¹ block diagonal, and the collocation
 //! polynomial.
 //!
-//! The module `tests` compares them with the matrix A that follows from the nodes.
+//! The module `tests` compares the coefficients with the matrix A that is computed from the nodes.
 
 /// Square root √6.
 const SQRT_6: f64 = 2.449_489_742_783_178;
@@ -48,16 +48,16 @@ pub(super) const T_INVERSE: [[f64; 3]; 3] = [
     ],
 ];
 
-/// Weights `E_i = −L_i'(0)`: h·f0 + Σ E_i·z_i is the defect of the collocation polynomial at the
-/// start, the estimated error of order 3.
+/// Weights `E_i = −L_i'(0)`. The sum h·f0 + Σ E_i·z_i is the defect of the collocation polynomial
+/// at the start, which is the estimated error of order 3.
 pub(super) const E: [f64; 3] = [
     -(13.0 + 7.0 * SQRT_6) / 3.0,
     (-13.0 + 7.0 * SQRT_6) / 3.0,
     -1.0 / 3.0,
 ];
 
-/// Returns the values at θ of the Lagrange polynomials L_i of the nodes 0, c₁, c₂, 1, without the
-/// polynomial of node 0: u(θ) = y0 + Σ L_i(θ)·z_i.
+/// Returns the values at θ of the Lagrange polynomials L_i of the nodes 0, c₁, c₂, 1. The
+/// polynomial of node 0 is omitted: u(θ) = y0 + Σ L_i(θ)·z_i.
 pub(super) fn lagrange(theta: f64) -> [f64; 3] {
     let [a, b, _] = C;
     let x = theta;
@@ -72,7 +72,7 @@ pub(super) fn lagrange(theta: f64) -> [f64; 3] {
 pub(super) fn lagrange_derivative(theta: f64) -> [f64; 3] {
     let [a, b, _] = C;
     let x = theta;
-    // Returns d/dx x·(x − p)·(x − q).
+    // Returns the derivative d/dx of x·(x − p)·(x − q).
     let cubic = |p: f64, q: f64| x * (3.0 * x - 2.0 * (p + q)) + p * q;
     [
         cubic(b, 1.0) / (a * (a - b) * (a - 1.0)),

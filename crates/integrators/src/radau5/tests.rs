@@ -1,5 +1,5 @@
-//! Tests of the method without step control: its coefficients, its stability function, its order
-//! and its dense output.
+//! Tests of the method without step control. They test its coefficients, its stability function,
+//! its order and its dense output.
 
 use super::Radau5Stages;
 use super::dense::{defect_weights, start_weight, start_weight_derivative};
@@ -118,8 +118,8 @@ where
         }
     }
 
-    /// Performs a step from t over h, at full accuracy; `inside` receives the two dense outputs at
-    /// θ. Returns the size of the estimated error.
+    /// Performs a step from t to t + h at full accuracy. The two dense outputs at θ are written to
+    /// `inside`. Returns the size of the estimated error.
     fn step(&mut self, t: f64, h: f64, theta: f64, inside: &mut [Vec<f64>; 2]) -> f64 {
         let legs = Interval::new(t, t + h)
             .legs::<Infallible>()
@@ -208,8 +208,8 @@ fn one_linear_step_is_the_stability_function() {
     }
 }
 
-/// Returns the largest errors over [0, 2] with n steps: at the ends of steps, of both outputs at θ
-/// = 0.4, and the largest estimate.
+/// Returns the largest errors over [0, 2] with n steps: the error at the ends of steps, the errors
+/// of both outputs at θ = 0.4, and the largest estimate.
 fn errors(n: u32) -> [f64; 4] {
     // The solution of y₁' = y₂·cos t, y₂' = −y₁·cos t + (1 − y₁² − y₂²)·y₂ is (sin s, cos s) with s
     // = sin t. The problem is nonlinear in y and depends on t.
@@ -242,8 +242,8 @@ fn errors(n: u32) -> [f64; 4] {
     largest
 }
 
-/// The ends and the accurate output have order 5. The output without extra evaluations has the
-/// local error O(h⁵). The estimate is O(h⁴), as for an estimate of order 3.
+/// The ends of the steps and the accurate output have order 5. The output without extra evaluations
+/// has the local error O(h⁵). The estimate is O(h⁴), as for an estimate of order 3.
 #[test]
 fn orders_of_the_step_its_outputs_and_its_estimate() {
     let runs = [16, 32, 64].map(errors);

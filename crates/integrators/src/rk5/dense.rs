@@ -1,16 +1,17 @@
-//! The solution within an accepted step. It has order 4 (local error O(h⁵)) without extra
-//! evaluations, and order 5 (O(h⁶), like the step) with two extra evaluations.
+//! The solution within an accepted step. The dense output has order 4 (local error O(h⁵)) without
+//! extra evaluations, and order 5 (O(h⁶), like the step) with two extra evaluations.
 //!
 //! **Order 4.** The output is the cubic Hermite interpolation of (y0, f0), (y1, f1) plus a quartic
-//! term that vanishes with its derivative at both ends:
+//! term. The quartic term and its derivative vanish at both ends:
 //!
 //! ```text
 //! u(θ) = y0 + θ²(3 − 2θ)·Δ + h·θ(1 − θ)²·f0 − h·θ²(1 − θ)·f1 + h·θ²(1 − θ)²·Σ d_i k_i,   Δ = y1 − y0
 //! ```
 //!
-//! Without projection this is Shampine's formula, Hairer, Nørsett, Wanner I, 2nd ed., II.6. A
-//! projection that moves y1 by c and f1 by g adds θ²(3 − 2θ)·c − h·θ²(1 − θ)·g. At the end, the
-//! output then has the value and the derivative of the projected state; the start is unchanged.
+//! Without projection the output is given by Shampine's formula, Hairer, Nørsett, Wanner I, 2nd
+//! ed., II.6. A projection that moves y1 by c and f1 by g adds θ²(3 − 2θ)·c − h·θ²(1 − θ)·g. At the
+//! end, the output then has the value and the derivative of the projected state. The start is
+//! unchanged.
 //!
 //! **Order 5.** The output is the quintic with u(0) = y0, u(1) = y1, u'(0) = h·f0, u'(1) = h·f1 and
 //! u'(θ) = h·f(t0 + θh, u₄(θ)) at θ = a, b. Here u₄ is the output of order 4, whose error O(h⁵)
@@ -29,7 +30,7 @@ use crate::ode::{Ode, evaluate};
 
 /// First relative position of the extra evaluations for the dense output of order 5.
 pub(super) const NODE_A: f64 = 1.0 / 5.0;
-/// Second relative position.
+/// Second relative position of the extra evaluations.
 pub(super) const NODE_B: f64 = 1.0 / 2.0;
 
 impl<O: Ode, T: Tableau> Dense<O> for Rk5Stages<T> {
@@ -91,8 +92,8 @@ pub(super) struct QuinticWeights {
     pub(super) f_b: f64,
 }
 
-/// Returns the five polynomials of degree ≤ 5 that vanish at θ = 0 and are dual to u(1), u'(0),
-/// u'(1), u'(1/5), u'(1/2).
+/// Returns the five polynomials of degree ≤ 5 that vanish at θ = 0. The polynomials are dual to
+/// u(1), u'(0), u'(1), u'(1/5), u'(1/2).
 pub(super) fn quintic_weights(theta: f64) -> QuinticWeights {
     let (x, x2) = (theta, theta * theta);
     let rest = 1.0 - theta;

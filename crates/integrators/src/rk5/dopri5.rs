@@ -9,9 +9,10 @@
 
 use super::tableau::Tableau;
 
-/// Dormand–Prince 5(4) with seven stages, the last of which is reused; known as `ode45`. The method
-/// has order 5. The dense output has order 4 (local error O(h⁵)) without extra evaluations, and
-/// order 5 (local error O(h⁶), like the step) with two extra evaluations in the step.
+/// Dormand–Prince 5(4) with seven stages, also called `ode45`. The last stage is reused in the next
+/// step. The method has order 5. The dense output has order 4 (local error O(h⁵)) without extra
+/// evaluations, and order 5 (local error O(h⁶), like the step) with two extra evaluations in the
+/// step.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Dopri5;
 

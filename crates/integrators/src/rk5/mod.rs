@@ -1,4 +1,4 @@
-//! Pairs of order 5(4) with seven stages, the last of which is the first of the next step. Both
+//! Pairs of order 5(4) with seven stages. The last stage is the first stage of the next step. Both
 //! pairs share one implementation with two tables of coefficients.
 
 mod dense;
@@ -51,7 +51,7 @@ pub struct Rk5Stages<T> {
     control: Control,
     /// Stages 2 to 7 of the last trial.
     k: [Vec<f64>; 6],
-    /// f at `NODE_A`, `NODE_B` of the last prepared step.
+    /// Derivatives f at `NODE_A` and `NODE_B` of the last prepared step.
     f_a: Vec<f64>,
     f_b: Vec<f64>,
     /// Buffer for the argument of a stage.

@@ -4,7 +4,7 @@ use super::dense::{NODE_A, NODE_B, quartic_weights, quintic_weights};
 use super::{Dopri5, Tableau, Tsit5};
 use crate::trees::{error_size, violation};
 
-/// Number of stages: seven stages and the two extra evaluations.
+/// Number of stages, including the two extra evaluations.
 const STAGES: usize = 9;
 /// Bound on the rounding error of sums of up to 9 products of size ≤ 50.
 const TOLERANCE: f64 = 1e-13;

@@ -1,19 +1,19 @@
-//! Tsitouras 5(4): the coefficients, from the equations of the paper in 40 digits, rounded once.
-//! The module `order_conditions` checks them.
+//! Tsitouras 5(4): the coefficients. The coefficients were computed from the equations of the paper
+//! in 40 digits and rounded once. The module `order_conditions` checks them.
 //!
 //! The paper prints the weights of the dense output with 16 to 18 digits. The weights of this crate
-//! differ from the published ones by at most 1e-14: they are the nearest weights that satisfy the
-//! conditions of order 4 exactly.
+//! differ from the published weights by at most 1e-14. The weights of this crate are the nearest
+//! weights that satisfy the conditions of order 4 exactly.
 //!
 //! Source: Ch. Tsitouras, Runge–Kutta pairs of order 5(4) satisfying only the first column
 //! simplifying assumption, Comput. Math. Appl. 62 (2011) 770–775, DOI 10.1016/j.camwa.2011.06.002.
 
 use super::tableau::Tableau;
 
-/// Tsitouras 5(4) with seven stages, the last of which is reused. The method has order 5, with
-/// smaller error coefficients than [`Dopri5`](crate::Dopri5) and a sharper error estimate. The
-/// dense output has order 4 without extra evaluations, and order 5 with two extra evaluations in
-/// the step.
+/// Tsitouras 5(4) with seven stages. The last stage is reused in the next step. The method has
+/// order 5, with smaller error coefficients than [`Dopri5`](crate::Dopri5) and a sharper error
+/// estimate. The dense output has order 4 without extra evaluations, and order 5 with two extra
+/// evaluations in the step.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Tsit5;
 
