@@ -1,4 +1,4 @@
-//! Chooses the method of a run if the user gives no method.
+//! Chooses the method of a run if the user does not specify a method.
 
 use linalg::{Matrix, SaddleError};
 use model::words::rough;
@@ -11,9 +11,9 @@ use crate::plan::Decision;
 use crate::prepare::PreparedMechanism;
 use crate::run::{ReducedJacobian, derivatives};
 
-/// Returns the method of a run: the given method, if there is one; Radau IIA if forces make the
-/// motion stiff at its start; otherwise Dormand–Prince 8(5,3). The motion of a mechanism without
-/// degrees of freedom needs no implicit method.
+/// Returns the method of a run. If a method is given, this method is returned. Otherwise the method
+/// is Radau IIA if forces make the motion stiff at its start, or else Dormand–Prince 8(5,3). The
+/// motion of a mechanism without degrees of freedom needs no implicit method.
 ///
 /// # Errors
 /// Returns an error if an implicit method is requested or considered, but the motion has no
@@ -75,8 +75,8 @@ fn decided(value: Method, reason: String) -> Decision<Method> {
     Decision::new(value, value.name(), reason)
 }
 
-/// The largest |λ| (1/s) over the eigenvalues λ of the motion on independent coordinates at the
-/// start.
+/// Returns the largest |λ| (1/s) of all eigenvalues λ of the motion on independent coordinates at
+/// the start.
 fn fastest_rate(prepared: &PreparedMechanism) -> Result<f64, MotionFault> {
     let mut motion = KeptRowMotion::new(prepared)?;
     let mut reduced = ReducedJacobian::new(&motion);
@@ -85,9 +85,9 @@ fn fastest_rate(prepared: &PreparedMechanism) -> Result<f64, MotionFault> {
     Ok(spectral_radius(reduced.jacobian()))
 }
 
-/// Estimates the spectral radius from the growth of a vector in repeated multiplication by the
-/// matrix. The geometric mean of the growth factors is also valid for complex conjugate
-/// eigenvalues.
+/// Estimates the spectral radius. A vector is repeatedly multiplied by the matrix, and the growth
+/// of the vector gives the estimate. The geometric mean of the growth factors is also valid for
+/// complex conjugate eigenvalues.
 fn spectral_radius(a: &Matrix) -> f64 {
     let k = a.nrows();
     // It is improbable that an eigenvector is orthogonal to this vector.
@@ -115,7 +115,7 @@ mod tests {
 
     use super::*;
 
-    /// Growth factor of one step of 1 s for y' = −z·y, starting from 1.
+    /// Returns the growth factor of one step of 1 s for y' = −z·y, starting from 1.
     fn growth(z: f64) -> f64 {
         let options = Options {
             tolerance: Tolerance::Uniform {

@@ -1,13 +1,13 @@
 //! The interface between a run and straight-line code that was generated for one mechanism. Another
-//! crate generates such code; [`PreparedMechanism::code_for`](crate::PreparedMechanism::code_for)
-//! decides when a run may use it.
+//! crate generates such code. [`PreparedMechanism::code_for`](crate::PreparedMechanism::code_for)
+//! decides when a run may use the code.
 //!
 //! Generated code has fixed independent rows and a fixed order of elimination, so it cannot choose
-//! new pivots. Instead it reports the quality of its pivots, called its *health*. The health is the
-//! smallest ratio of a pivot, with its sign, to the smallest |pivot| that the generator found at
-//! the same position. A health of 1 means that the pivots are as large as in the generator. At 0 or
-//! less, a pivot is zero or has changed its sign. NaN counts as unreliable. The caller must check
-//! the health.
+//! new pivots. Instead it returns the quality of its pivots, called its *health*. Each pivot, with
+//! its sign, is divided by the smallest |pivot| that the generator found at the same position. The
+//! health is the smallest of these ratios. A health of 1 means that the pivots are as large as in
+//! the generator. At 0 or less, a pivot is zero or has changed its sign. NaN counts as unreliable.
+//! The caller must check the health.
 
 mod belongs;
 mod inputs;
@@ -89,19 +89,19 @@ pub struct CodeSpec {
 /// | argument | length | meaning |
 /// | --- | --- | --- |
 /// | `q` | n_q | coordinates |
-/// | `dq` | n_v | a displacement of them, see [`model::System::displace`] |
-/// | `v`, `dv`, `a` | n_v | velocities, their changes, and accelerations |
+/// | `dq` | n_v | a displacement of the coordinates, see [`model::System::displace`] |
+/// | `v`, `dv`, `a` | n_v | velocities, changes of velocities, and accelerations |
 /// | `phi` | m | Φ(q, t) of all holonomic rows |
 /// | `residual`, `lambda` | m + h | C·v − b, and multipliers, of all rows |
 pub trait SceneCode {
-    /// The mechanism for which the code was generated.
+    /// Returns the mechanism for which the code was generated.
     fn spec(&self) -> &CodeSpec;
 
-    /// Computes `a` from `M·a + C_Kᵀ·λ_K = Q`, `C_K·a = Γ_K`; returns the health.
+    /// Computes `a` from `M·a + C_Kᵀ·λ_K = Q`, `C_K·a = Γ_K`. Returns the health.
     fn acceleration(&self, t: f64, q: &[f64], v: &[f64], a: &mut [f64]) -> f64;
 
     /// Computes the multipliers λ of the equations of [`SceneCode::acceleration`], with 0 for
-    /// redundant rows; returns the health.
+    /// redundant rows. Returns the health.
     fn multipliers(&self, t: f64, q: &[f64], v: &[f64], lambda: &mut [f64]) -> f64;
 
     /// Computes Φ of all holonomic rows.
@@ -111,21 +111,21 @@ pub trait SceneCode {
     fn velocity_residual(&self, t: f64, q: &[f64], v: &[f64], out: &mut [f64]);
 
     /// Computes the `dq` of smallest norm in the mass metric that satisfies `Φq·dq = −phi` for the
-    /// independent rows of Φq; returns the health of the pivots of these rows.
+    /// independent rows of Φq. Returns the health of the pivots of these rows.
     fn position_correction(&self, t: f64, q: &[f64], phi: &[f64], dq: &mut [f64]) -> f64;
 
     /// Computes the `dv` of smallest norm in the mass metric that satisfies `C·dv = −residual` for
-    /// the independent rows of C; returns the health.
+    /// the independent rows of C. Returns the health.
     fn velocity_correction(&self, t: f64, q: &[f64], residual: &[f64], dv: &mut [f64]) -> f64;
 
-    /// The parameters of a mechanism that the code takes as inputs; `None` if all parameters are
-    /// constants in the code.
+    /// Returns the parameters of a mechanism that the code takes as inputs. Returns `None` if all
+    /// parameters are constants in the code.
     fn inputs(&self) -> Option<&CodeInputs> {
         None
     }
 
-    /// The same code with these input values, in the order of the inputs; `None` if the code has no
-    /// inputs or expects another number of inputs.
+    /// Returns the same code with these input values, in the order of the inputs. Returns `None` if
+    /// the code has no inputs or expects another number of inputs.
     fn with_inputs(&self, _values: &[f64]) -> Option<Arc<SharedCode>> {
         None
     }
@@ -137,17 +137,17 @@ pub type SharedCode = dyn SceneCode + Send + Sync;
 /// Identifies a function of [`SceneCode`], for programs that evaluate the code by other means.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum CodeFunction {
-    /// [`SceneCode::acceleration`]
+    /// The function [`SceneCode::acceleration`].
     Acceleration,
-    /// [`SceneCode::multipliers`]
+    /// The function [`SceneCode::multipliers`].
     Multipliers,
-    /// [`SceneCode::phi`]
+    /// The function [`SceneCode::phi`].
     Phi,
-    /// [`SceneCode::velocity_residual`]
+    /// The function [`SceneCode::velocity_residual`].
     VelocityResidual,
-    /// [`SceneCode::position_correction`]
+    /// The function [`SceneCode::position_correction`].
     PositionCorrection,
-    /// [`SceneCode::velocity_correction`]
+    /// The function [`SceneCode::velocity_correction`].
     VelocityCorrection,
 }
 
@@ -162,13 +162,13 @@ impl CodeFunction {
         Self::VelocityCorrection,
     ];
 
-    /// Index in [`CodeFunction::ALL`].
+    /// Returns the index in [`CodeFunction::ALL`].
     #[must_use]
     pub fn index(self) -> usize {
         self as usize
     }
 
-    /// The name of the function.
+    /// Returns the name of the function.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {

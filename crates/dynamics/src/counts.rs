@@ -1,5 +1,5 @@
-//! Counters of work. With them, tests prove that a run does not do the work that its plan omits.
-//! The counters exist only in tests.
+//! Counters of work. Tests use the counters to prove that a run does not do the work that its plan
+//! omits. The counters exist only in tests.
 
 /// Kinds of work that are counted.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -31,7 +31,7 @@ thread_local! {
     static COUNTS: std::cell::RefCell<[usize; 5]> = const { std::cell::RefCell::new([0; 5]) };
 }
 
-/// Counts the work that `run` does on this thread, by kind.
+/// Counts the work that `run` does on this thread, by kind of work.
 #[cfg(test)]
 pub(crate) fn counted(run: impl FnOnce()) -> impl Fn(WorkKind) -> usize {
     let before = COUNTS.with_borrow(|counts| *counts);

@@ -2,11 +2,11 @@
 //! and `Zᵀ·Q(q, 0, t) = 0` at the initial time t. Z is a basis of the velocities that the rows
 //! allow.
 //!
-//! Each step of the search follows the unbalanced forces. It solves `(K + μ·I)·y = Zᵀ·Q`. K is the
-//! stiffness of the forces and of the multipliers, and μ makes `K + μ·I` positive definite and
-//! limits the length of the step. Near an equilibrium this is Newton's method. Because the steps
-//! follow the forces, a potential decreases at each step, and the search moves away from a maximum
-//! of the potential as soon as a force acts. Masses have no influence.
+//! Each step of the search follows the unbalanced forces and solves `(K + μ·I)·y = Zᵀ·Q`. K is the
+//! stiffness of the forces and of the multipliers. μ makes `K + μ·I` positive definite and limits
+//! the length of the step. Near an equilibrium the search is Newton's method. Because the steps
+//! follow the forces, a potential decreases at each step. The search moves away from a maximum of
+//! the potential as soon as a force acts. Masses have no influence.
 //!
 //! Sources: C. T. Kelley, D. E. Keyes, Convergence analysis of pseudo-transient continuation, SIAM
 //! J. Numer. Anal. 35 (1998) 508–523; J. J. Moré, D. C. Sorensen, Computing a trust region step,
@@ -34,8 +34,8 @@ pub use error::{EquilibriumError, UnbalancedForce};
 /// Options of a search for an equilibrium.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct EquilibriumOptions {
-    /// Whether the search continues from an equilibrium that is not a minimum of the potential,
-    /// after a small displacement.
+    /// Whether the search continues after a small displacement if it finds an equilibrium that is
+    /// not a minimum of the potential.
     pub stable: bool,
 }
 
@@ -50,23 +50,24 @@ pub struct Equilibrium {
     pub q: Vec<f64>,
     /// Number of steps of the search.
     pub steps: usize,
-    /// Number of small displacements after which the search continued from an equilibrium that is
-    /// not a minimum of the potential.
+    /// Number of small displacements. After each displacement, the search continued from an
+    /// equilibrium that is not a minimum of the potential.
     pub pushes: usize,
-    /// Largest remaining force or torque along a free motion, divided by the largest acting one.
+    /// Largest remaining force or torque along a free motion, divided by the largest acting force
+    /// or torque.
     pub residual: f64,
     /// Largest acting force, or torque divided by the size of the mechanism (N).
     pub largest_force: f64,
     /// Stability of the equilibrium against small displacements.
     pub stability: RestStability,
-    /// Descriptions of the free motions along which neither a force nor a stiffness acts; the
-    /// search does not move the mechanism along them.
+    /// Descriptions of the free motions along which neither a force nor a stiffness acts. The
+    /// search does not move the mechanism along these motions.
     pub idle: Vec<String>,
-    /// Descriptions of the unstable free motions: the forces drive the mechanism away from the
-    /// equilibrium.
+    /// Descriptions of the unstable free motions. Along these motions, the forces drive the
+    /// mechanism away from the equilibrium.
     pub falling: Vec<String>,
-    /// Whether the equilibrium depends on the path of the search, because nonholonomic rows
-    /// restrict the path but not the position.
+    /// Whether the equilibrium depends on the path of the search. The equilibrium depends on the
+    /// path if nonholonomic rows restrict the path but not the position.
     pub depends_on_way: bool,
     /// Drives and joints that are locked in this analysis, but accelerate immediately in a run
     /// because of their functions of time.
@@ -84,7 +85,7 @@ pub enum RestStability {
     Stable,
     /// No motion is unstable, but some motions have no stiffness.
     Idle,
-    /// The equilibrium is not a minimum of the potential; the forces increase some small
+    /// The equilibrium is not a minimum of the potential. The forces increase some small
     /// displacements.
     Unstable,
     /// Stability is not analysed because of nonholonomic rows.
@@ -94,7 +95,7 @@ pub enum RestStability {
 }
 
 impl RestStability {
-    /// Name of the result in output.
+    /// Returns the name of the result in output.
     #[must_use]
     pub fn word(self) -> &'static str {
         match self {
@@ -106,7 +107,7 @@ impl RestStability {
         }
     }
 
-    /// Reason why stability is not analysed.
+    /// Returns the reason why stability is not analysed.
     #[must_use]
     pub fn why_not(self) -> Option<&'static str> {
         match self {
@@ -142,12 +143,12 @@ impl RestStability {
 ///
 /// # Errors
 /// - [`EquilibriumError::Prescribed`]: a drive or a joint prescribes a velocity.
-/// - [`EquilibriumError::Pushed`]: a force acts along a free motion, however far the mechanism
-///   moves.
+/// - [`EquilibriumError::Pushed`]: a force acts along a free motion at any distance that the
+///   mechanism moves.
 /// - [`EquilibriumError::NotFound`], [`EquilibriumError::Blocked`]: the search did not converge.
 /// - [`EquilibriumError::NoDerivatives`]: a force calls a function.
 /// - [`EquilibriumError::Start`], [`EquilibriumError::NotFinite`]: an intermediate configuration
-///   cannot be assembled, or a force has no finite value there.
+///   cannot be assembled, or a force has no finite value at this configuration.
 pub fn equilibrium(
     prepared: &PreparedMechanism,
     options: &EquilibriumOptions,
@@ -176,8 +177,8 @@ pub fn equilibrium(
 }
 
 /// Describes the bodies that fall freely at the configuration q and time t, and the loads that act
-/// on them. Such bodies have no connection to the ground. Returns `None` if it is not certain that
-/// a body falls.
+/// on these bodies. Such bodies have no connection to the ground. Returns `None` if it is not
+/// certain that a body falls.
 pub(crate) fn falling(prepared: &PreparedMechanism, t: f64, q: &[f64]) -> Option<String> {
     let mut statics = Statics::new(prepared);
     statics.t = t;
@@ -195,13 +196,13 @@ struct EquilibriumSearch<'m> {
     pushes: usize,
     /// Number of successive steps along a motion without stiffness.
     unresisted: usize,
-    /// Smallest remaining force so far, and the number of steps since it was last halved.
+    /// Smallest remaining force so far, and the number of steps since this force was last halved.
     best: f64,
     stalled: usize,
 }
 
 impl EquilibriumSearch<'_> {
-    /// Moves to an equilibrium; returns the stiffness at the equilibrium.
+    /// Moves the mechanism to an equilibrium. Returns the stiffness at the equilibrium.
     fn run(&mut self, options: &EquilibriumOptions) -> Result<Stiffness, EquilibriumError> {
         loop {
             let stiffness = self.statics.stiffness(&self.at)?;
@@ -222,7 +223,7 @@ impl EquilibriumSearch<'_> {
         }
     }
 
-    /// Whether the remaining forces are rounding errors.
+    /// Returns whether the remaining forces are rounding errors.
     fn is_at_rest(&mut self, stiffness: &Stiffness) -> bool {
         let left = norm(&self.at.free);
         let rounding = f64::EPSILON * (self.at.scale + stiffness.largest);
@@ -235,7 +236,7 @@ impl EquilibriumSearch<'_> {
             || self.stalled >= REST_STALLED && left <= REST_LEFT * rounding
     }
 
-    /// Rejects a motion along which a force acts at every configuration.
+    /// Returns an error for a motion along which a force acts at every configuration.
     fn watch(&mut self, stiffness: &Stiffness) -> Result<(), EquilibriumError> {
         let free = &self.at.free;
         let size = norm(free);
@@ -269,7 +270,7 @@ impl EquilibriumSearch<'_> {
         }
     }
 
-    /// The unbalanced forces at the current configuration.
+    /// Returns the unbalanced forces at the current configuration.
     fn pushed(&mut self) -> Vec<UnbalancedForce> {
         let size = norm(&self.at.free);
         let along: Vec<f64> = self.at.free.iter().map(|f| f / size).collect();
@@ -302,7 +303,8 @@ impl EquilibriumSearch<'_> {
                     continue;
                 }
             };
-            // Work per length of the step, first at its start and then at its end.
+            // Work divided by the length of the step, first at the start and then at the end of the
+            // step.
             let begins = dot(&self.at.free, &y);
             let ends = dot(&self.statics.scaled(&at), &moved);
             let ratio = ends / begins;

@@ -12,7 +12,7 @@ use solvability::{AnalysisError, Contradiction, DriveLimit, NoFiniteReaction, St
 
 pub use rows::DropError;
 
-/// Reason why the equations cannot be solved at one instant. A shorter step may avoid it.
+/// Reason why the equations cannot be solved at one instant. A shorter step may avoid the problem.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum MotionFault {
@@ -30,7 +30,7 @@ pub enum MotionFault {
         /// The reference value with which the pivot is compared.
         scale: f64,
     },
-    /// The independent coordinates no longer determine the dependent ones.
+    /// The independent coordinates no longer determine the dependent coordinates.
     #[error(
         "at t = {t} s the independent coordinates do not determine the others: row {row} has a pivot of {pivot} times the \
          one at their choice", t = rounded(*time), pivot = short(*pivot))]
@@ -50,7 +50,7 @@ pub enum MotionFault {
         /// Cause.
         source: SingularPivot,
     },
-    /// A motion is possible that moves no mass.
+    /// The mechanism has a motion that moves no mass.
     #[error(
         "at t = {t} s a motion without mass or inertia is possible: body `{body}` can move its {coordinate} freely; \
          give it mass or inertia, or constrain it", t = rounded(*time))]
@@ -71,7 +71,7 @@ pub enum MotionFault {
         what: String,
     },
     /// An external function did not return a finite value. The run ends, because another step
-    /// cannot correct the error.
+    /// cannot correct this error.
     #[error(
         "at t = {t} s {source} has no value; a function must return finite numbers at every state, since the stages of a step may leave the motion", t = rounded(*time))]
     Function {
@@ -80,10 +80,10 @@ pub enum MotionFault {
         /// The drive or force, with the state and the cause.
         source: UndefinedForce,
     },
-    /// A force calls an external function, which gives values but no derivatives.
+    /// A force calls an external function, which returns values but no derivatives.
     #[error("{needs} derivatives of all forces, and {source}; {instead}")]
     NoDerivatives {
-        /// Text with the calculation that needs derivatives and its verb.
+        /// Text with the calculation that needs derivatives, and the verb of the calculation.
         needs: &'static str,
         /// The force that calls a function.
         source: CalledForce,
@@ -121,7 +121,8 @@ pub enum MotionFault {
         residual: f64,
         /// The largest residual allowed.
         tolerance: f64,
-        /// Drives and joints with functions of time in this row and in the rows that implied it.
+        /// Drives and joints with functions of time that belong to this row or to the rows that
+        /// implied it.
         drives: Box<[String]>,
     },
     /// The violation of a row that is redundant within the stated tolerance is larger than data
@@ -143,7 +144,7 @@ pub enum MotionFault {
         way: String,
     },
     /// From some time after the start, redundant drives prescribe different motions, or a drive
-    /// prescribes a motion that joints prevent.
+    /// prescribes a motion that the joints prevent.
     #[error("at t = {t} s redundant rows contradict each other: {contradiction}", t = rounded(*time))]
     Drives {
         /// Time at which the program detected the difference of the rows (s).
@@ -169,7 +170,7 @@ pub enum MotionFault {
         /// Residual of the row.
         residual: f64,
     },
-    /// One-sided joints cannot all stay closed any more.
+    /// The one-sided joints can no longer all stay closed.
     #[error(
         "at t = {t} s {who}: no sharing of the loads presses on all one-sided joints any more; end the run before, or \
          leave out `one_sided` to compute the motion of contacts that pull",
@@ -180,8 +181,8 @@ pub enum MotionFault {
         /// The joints that open.
         joints: Vec<String>,
     },
-    /// Newton's method for dependent coordinates converged to a configuration far away: another
-    /// branch, or another revolution.
+    /// Newton's method for dependent coordinates converged to a configuration far away. This
+    /// configuration belongs to another branch or to another revolution.
     #[error(
         "at t = {t} s the dependent coordinates could only be found {by:.2} (lengths of the mechanism, or radians) from where the \
          step expects them, at the {coordinate} of `{body}`", t = rounded(*time))]
@@ -192,7 +193,8 @@ pub enum MotionFault {
         body: String,
         /// Coordinate of the body.
         coordinate: &'static str,
-        /// Distance: lengths as a fraction of the size of the mechanism, angles in radians.
+        /// Distance. Lengths are given as a fraction of the size of the mechanism, and angles in
+        /// radians.
         by: f64,
     },
     /// An output row is far from the path of the step that contains the row.
@@ -207,7 +209,8 @@ pub enum MotionFault {
         body: String,
         /// Coordinate of the body.
         coordinate: &'static str,
-        /// Distance: lengths as a fraction of the size of the mechanism, angles in radians.
+        /// Distance. Lengths are given as a fraction of the size of the mechanism, and angles in
+        /// radians.
         by: f64,
     },
     /// A constraint function jumps.
@@ -246,7 +249,7 @@ pub enum MotionFault {
         /// Cause.
         what: String,
     },
-    /// The caller ended the run; the steps before are valid.
+    /// The caller ended the run. The steps before are valid.
     #[error("interrupted at t = {t} s", t = rounded(*time))]
     Interrupted {
         /// Time of the evaluation that was not carried out (s).
@@ -263,7 +266,7 @@ pub enum MotionFault {
 }
 
 impl MotionFault {
-    /// Error code; see [`model::codes`].
+    /// Returns the error code; see [`model::codes`].
     #[must_use]
     pub fn code(&self) -> Code {
         match self {
@@ -361,8 +364,8 @@ pub enum MotionError {
         /// The name.
         name: String,
     },
-    /// One of several independent components stopped; the run then stopped the others at the same
-    /// time.
+    /// One of several independent components stopped. The run then stopped the other components at
+    /// the same time.
     #[error("{component}: {source}")]
     Component {
         /// Bodies of the component.
@@ -376,7 +379,7 @@ pub enum MotionError {
 }
 
 impl MotionError {
-    /// Error code; see [`model::codes`].
+    /// Returns the error code; see [`model::codes`].
     #[must_use]
     pub fn code(&self) -> Code {
         match self {
@@ -443,8 +446,8 @@ fn implied(drives: &[String]) -> String {
     }
 }
 
-/// States the limit that a residual exceeds. A run stops as soon as a residual exceeds its limit,
-/// so the residual and the limit may be equal after rounding for the message.
+/// Describes the limit that a residual exceeds. A run stops as soon as a residual exceeds its
+/// limit. Therefore the residual and the limit may be equal after rounding for the message.
 fn above(residual: f64, tolerance: f64) -> String {
     let [found, allowed] = [residual, tolerance].map(short);
     if found == allowed {
@@ -454,7 +457,8 @@ fn above(residual: f64, tolerance: f64) -> String {
     }
 }
 
-/// Describes the interval between two times; prints one time if both are equal after rounding.
+/// Describes the interval between two times. If both times are equal after rounding, only one time
+/// is printed.
 fn instant(from: f64, to: f64) -> String {
     let [from, to] = [from, to].map(rounded);
     if from == to {

@@ -19,13 +19,13 @@ pub struct Event {
     pub dropped: Vec<usize>,
     /// Description.
     pub text: String,
-    /// Impulses of all joints and drives if velocities jump; empty for other events, and if no
-    /// reactions are requested.
+    /// Impulses of all joints and drives if velocities jump. The list is empty for other events,
+    /// and if no reactions are requested.
     pub impulses: Vec<ReactionImpulse>,
 }
 
-/// The impulse of a joint or drive at a jump of the velocities: the integral of each component of
-/// the reaction over the instant.
+/// The impulse of a joint or drive at a jump of the velocities. The impulse is the integral of each
+/// component of the reaction over the instant.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct ReactionImpulse {
@@ -37,7 +37,8 @@ pub struct ReactionImpulse {
 }
 
 impl Event {
-    /// An event that does not change the degree of redundancy, with the redundant rows after it.
+    /// Creates an event that does not change the degree of redundancy. `dropped` are the redundant
+    /// rows after the event.
     pub(crate) fn at(time: f64, kind: EventKind, dropped: &[usize], text: String) -> Self {
         Self {
             time,
@@ -58,20 +59,20 @@ impl Event {
 pub enum EventKind {
     /// Other independent rows are used; the rank is the same.
     RowsExchanged,
-    /// The mechanism moved through a singular configuration: the rank fell for an instant.
+    /// The mechanism moved through a singular configuration. The rank was lower for an instant.
     SingularPassage,
     /// A prescribed rate jumped, and therefore the velocities also jumped.
     Impulse,
     /// One-sided joints open; the run ends.
     Lifts,
-    /// Generated code became unreliable: the equations are interpreted from this time on.
+    /// Generated code became unreliable. The equations are interpreted from this time on.
     CodeLeft,
     /// Generated code is used again.
     CodeUsed,
 }
 
 impl EventKind {
-    /// Whether a new interval of verdicts starts with this event.
+    /// Returns whether a new interval of verdicts starts with this event.
     #[must_use]
     pub fn cuts(self) -> bool {
         match self {
@@ -80,7 +81,7 @@ impl EventKind {
         }
     }
 
-    /// Name in output files.
+    /// Returns the name in output files.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {

@@ -1,6 +1,7 @@
-//! A switch that compiles the monitors of a run. The monitors check redundant rows, residuals and
-//! energy, the distance of output rows from the path of their step, and generated code. Monitors
-//! also predict singular configurations and exchange independent rows.
+//! A switch that determines whether the monitors of a run are compiled. The monitors check
+//! redundant rows, residuals and energy, the distance of output rows from the path of their step,
+//! and generated code. The monitors also predict singular configurations and exchange independent
+//! rows.
 //!
 //! The monitors are always compiled, except in the build that measures their cost:
 //! `cargo xtask guards` compiles with `--cfg pfaff_unguarded`.

@@ -7,8 +7,8 @@ use crate::limits::RESTING_RATE;
 use crate::prepare::PreparedMechanism;
 
 impl PreparedMechanism {
-    /// The same mechanism with functions of time that keep their values at t, for a state at rest:
-    /// [`Mechanism::held_at`].
+    /// Returns the same mechanism with functions of time that keep their values at t, for a state
+    /// at rest; see [`Mechanism::held_at`].
     #[must_use]
     pub fn held_at(&self, t: f64) -> Self {
         Self {
@@ -20,15 +20,15 @@ impl PreparedMechanism {
     }
 }
 
-/// Whether velocities are rounding errors for a mechanism of this size (m).
+/// Returns whether velocities are rounding errors for a mechanism of this size (m).
 pub(crate) fn rests(mechanism: &Mechanism, size: f64, v: &[f64]) -> bool {
     let unit = |j: usize| mechanism.space().unit(j, size);
     let mut each = v.iter().enumerate();
     each.all(|(j, v)| v.abs() <= RESTING_RATE * unit(j))
 }
 
-/// Names of drives and joints whose functions of time prescribe an acceleration at rest at the
-/// coordinates q. Rounding errors for a mechanism of this size (m) do not count.
+/// Returns the names of drives and joints whose functions of time prescribe an acceleration at rest
+/// at the coordinates q. Rounding errors for a mechanism of this size (m) do not count.
 pub(crate) fn accelerated(mechanism: &Mechanism, size: f64, t: f64, q: &[f64]) -> Vec<String> {
     let layout = mechanism.layout();
     let mut s = mechanism.scratch();

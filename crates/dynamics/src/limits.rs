@@ -1,12 +1,13 @@
 //! Table of limits: every constant of this crate that was chosen by its authors. Each entry states
 //! the meaning of the constant, its unit, and the effects of a value that is too small or too
-//! large. It also names the test that fails then: `none, work only` if only time or memory change,
-//! `none` if there is no test yet. `tests/all/limits.rs` reads this table.
+//! large. Each entry also contains the name of the test that fails for such a value. `none, work
+//! only` means that only time or memory change, and `none` means that there is no test yet. The
+//! test file `tests/all/limits.rs` reads this table.
 //!
 //! A share of pivots is relative to the *reference pivots*. These are the pivots at the state at
 //! which the independent rows were chosen. "Independent rows" are the constraint rows that are
-//! solved (`kept`); "redundant rows" are the other ones (`dropped`). A *rounding* is the relative
-//! rounding error of `f64`.
+//! solved (`kept`), and "redundant rows" are the other rows (`dropped`). A *rounding* is the
+//! relative rounding error of `f64`.
 
 use std::ops::RangeInclusive;
 
@@ -14,10 +15,11 @@ use crate::options::MotionOptions;
 
 // Solvers.
 
-/// From this number of independent rows on, the equations are solved through the Schur complement
-/// if more than [`FREE_MOST`] degrees of freedom are left. Unit: rows. Too small: small mechanisms
-/// are solved without independent coordinates and refinement. Too large: the work of one evaluation
-/// of a chain grows with the cube of its rows. Test: `it_is_where_its_drive_is_by_every_method`.
+/// Number of independent rows from which the equations are solved through the Schur complement, if
+/// the mechanism has more than [`FREE_MOST`] degrees of freedom. Unit: rows. Too small: small
+/// mechanisms are solved without independent coordinates and refinement. Too large: the work of one
+/// evaluation of a chain grows with the cube of its rows. Test:
+/// `it_is_where_its_drive_is_by_every_method`.
 pub(crate) const SCHUR_FROM: usize = 64;
 
 /// Up to this number of degrees of freedom, the null space takes less work than the Schur
@@ -32,25 +34,25 @@ pub(crate) const FREE_MOST: usize = 16;
 /// matrices. Test: `free_bodies_take_memory_in_proportion`.
 pub(crate) const FREE_DENSE: usize = 1024;
 
-/// From this number of independent rows on, the coefficients of two random sums of redundant rows
-/// are computed, and not those of each redundant row. Unit: rows. Too small: large coefficients may
+/// Number of independent rows from which the coefficients of two random sums of redundant rows are
+/// computed instead of those of each redundant row. Unit: rows. Too small: large coefficients may
 /// cancel. Too large: runs take longer. Test: none, work only.
 pub(crate) const SUMMED_FROM: usize = 64;
 
-/// Up to this number of independent rows, solutions with graded masses are refined, whatever the
-/// number of degrees of freedom. Unit: rows. Too small: solutions for light bodies of large
-/// mechanisms lose digits. Too large: the work grows with the cube of the rows. Test: none.
+/// Up to this number of independent rows, solutions with graded masses are refined, for any number
+/// of degrees of freedom. Unit: rows. Too small: solutions for light bodies of large mechanisms
+/// lose digits. Too large: the work grows with the cube of the rows. Test: none.
 pub(crate) const REFINED_MOST: usize = 600;
 
-/// A mechanism with more rows than this and more than [`FREE_MOST`] degrees of freedom is not
-/// solved in its null space. Unit: rows. Too small: mechanisms are rejected that could be solved.
-/// Too large: matrices need more than a gigabyte. Test:
+/// A mechanism with more rows than this number and more than [`FREE_MOST`] degrees of freedom is
+/// not solved in its null space. Unit: rows. Too small: mechanisms are rejected that could be
+/// solved. Too large: matrices need more than a gigabyte. Test:
 /// `the_motion_is_the_same_by_every_way_through_it`.
 pub(crate) const NULL_SPACE_MOST: usize = 5000;
 
 /// Number of vectors of all coordinates, velocities and rows that a run stores. Unit: vectors. Too
-/// small: the memory estimate is too small. Too large: runs are rejected that would fit into
-/// memory. Test: none, work only.
+/// small: the memory estimate is too small. Too large: runs are rejected although they would fit
+/// into memory. Test: none, work only.
 pub(crate) const VECTORS: usize = 38;
 
 /// Solutions are refined for mechanisms that are larger than this size or smaller than its inverse.
@@ -65,10 +67,10 @@ pub(crate) const FAR_FROM_A_METRE: f64 = 1e5;
 /// `limits_stand_in_their_order`.
 pub(crate) const PIVOT_SINGULAR: f64 = 1e-6;
 
-/// At an accepted step, quaternions with a length in this range are unchanged; others are scaled to
-/// length one. The motion does not depend on the length, but the tolerance of a step is relative to
-/// the length. Unit: length. Too small: steps change coordinates unnecessarily. Too large: the
-/// orientation of free bodies loses digits in runs with loose tolerances. Test:
+/// At an accepted step, quaternions with a length in this range are unchanged. Other quaternions
+/// are scaled to length one. The motion does not depend on the length, but the tolerance of a step
+/// is relative to the length. Unit: length. Too small: steps change coordinates unnecessarily. Too
+/// large: the orientation of free bodies loses digits in runs with loose tolerances. Test:
 /// `a_quaternion_that_has_drifted_far_is_scaled`.
 pub(crate) const QUATERNION_LENGTHS: RangeInclusive<f64> = 0.5..=2.0;
 
@@ -80,12 +82,12 @@ pub(crate) const QUATERNION_LENGTHS: RangeInclusive<f64> = 0.5..=2.0;
 /// `what_is_written_starts_at_rest_and_stays_there`.
 pub(crate) const ENERGY_ROUNDINGS: f64 = 64.0;
 
-/// Prescribed rates below this count as zero. Unit: sizes of the mechanism per second, or rad/s.
-/// Too small: the rounding error of a cosine at a quarter turn counts as a motion. Too large: slow
-/// drives count as locked. Test: `a_drive_that_moves_at_the_start_is_refused_by_name`.
+/// Prescribed rates below this limit count as zero. Unit: sizes of the mechanism per second, or
+/// rad/s. Too small: the rounding error of a cosine at a quarter turn counts as a motion. Too
+/// large: slow drives count as locked. Test: `a_drive_that_moves_at_the_start_is_refused_by_name`.
 pub(crate) const RESTING_RATE: f64 = 1e-12;
 
-/// Step length of the finite differences of forces; the longest of the steps is four times as long.
+/// Step length of the finite differences of forces. The longest of the steps is four times as long.
 /// Unit: share of the size of the mechanism, or rad. Too small: the rounding error is divided by a
 /// shorter step. Too large: the stiffness of short springs is inaccurate. Test:
 /// `a_short_spring_on_a_long_bar_is_stiff_enough`.
@@ -101,9 +103,9 @@ pub(crate) const REST_RADIUS: f64 = 0.1;
 /// not the nearest. Test: none, work only.
 pub(crate) const REST_LONGEST: f64 = 0.8;
 
-/// The search ends if its steps become shorter than this. Unit: share of the size of the mechanism,
-/// or rad. Too small: failing searches take longer. Too large: searches end early that could
-/// continue. Test: none, work only.
+/// The search ends if its steps become shorter than this limit. Unit: share of the size of the
+/// mechanism, or rad. Too small: failing searches take longer. Too large: searches end early
+/// although they could continue. Test: none, work only.
 pub(crate) const REST_SHORTEST: f64 = 1e-10;
 
 /// Maximum number of steps of a search. Unit: steps. Too small: distant equilibria are not found.
@@ -131,9 +133,9 @@ pub(crate) const REST_LEFT: f64 = 4096.0;
 /// none, work only.
 pub(crate) const REST_STALLED: usize = 4;
 
-/// Length of the displacement with which a search leaves an unstable equilibrium. Unit: share of
-/// the size of the mechanism, or rad. Too small: the forces at the displaced configuration are
-/// rounding errors. Too large: a shallow equilibrium nearby is skipped. Test:
+/// Length of the displacement by which a search leaves an unstable equilibrium. Unit: share of the
+/// size of the mechanism, or rad. Too small: the forces at the displaced configuration are rounding
+/// errors. Too large: a shallow equilibrium nearby is skipped. Test:
 /// `a_push_lets_an_upright_pendulum_fall`.
 pub(crate) const REST_PUSH: f64 = 1e-2;
 
@@ -185,7 +187,7 @@ pub(crate) const ASYMMETRIC: f64 = 1e-7;
 
 // Linearised motions.
 
-/// Step length along a curve; the longest of the eight steps is four times as long. Unit: share of
+/// Step length along a curve. The longest of the eight steps is four times as long. Unit: share of
 /// the size of the mechanism, or rad. Too small: the rounding error, 1e-16, is divided by a shorter
 /// step. Too large: the truncation error, which grows with the eighth power of the step, is no
 /// longer negligible. Test: `a_pendulum_has_the_matrices_of_its_textbook`.
@@ -196,10 +198,10 @@ pub(crate) const LINEARISE_STEP: f64 = 1.0 / 128.0;
 /// accepted as a slope. Test: `a_force_with_a_corner_is_refused`.
 pub(crate) const LINEARISE_ACCURACY: f64 = 1e-6;
 
-/// The step of a difference is divided by four up to this number of times, as long as the
-/// difference is not an accurate derivative. Unit: quarterings. Too small: forces that are steep
-/// relative to the size of the mechanism are rejected. Too large: a rounding error counts as a
-/// corner. Test: `a_short_rod_in_a_large_mechanism_has_derivatives`.
+/// Maximum number of times that the step of a difference is divided by four. The step is divided as
+/// long as the difference is not an accurate derivative. Unit: quarterings. Too small: forces that
+/// are steep relative to the size of the mechanism are rejected. Too large: a rounding error counts
+/// as a corner. Test: `a_short_rod_in_a_large_mechanism_has_derivatives`.
 pub(crate) const LINEARISE_SHORTER: usize = 3;
 
 /// The state is at rest if each body accelerates by no more than this share of the acceleration
@@ -220,9 +222,9 @@ pub(crate) const STEADY_FRACTION: f64 = 1e-6;
 /// `what_the_motion_depends_on_cannot_be_followed`.
 pub(crate) const SYMMETRY: f64 = 1e-7;
 
-/// Eigenvalues below this share of the largest one count as zero. The limit is the square root of
-/// the rounding error, because zero eigenvalues of free motions are double. Unit: share of the
-/// largest eigenvalue. Too small: free motions seem to grow or decay. Too large: slow modes are
+/// Eigenvalues below this share of the largest eigenvalue count as zero. The limit is the square
+/// root of the rounding error, because zero eigenvalues of free motions are double. Unit: share of
+/// the largest eigenvalue. Too small: free motions seem to grow or decay. Too large: slow modes are
 /// lost. Test: `the_benchmark_bicycle_has_its_published_eigenvalues`.
 pub(crate) const ZERO_EIGENVALUE: f64 = 1e-7;
 
@@ -246,19 +248,20 @@ pub(crate) const NEITHER: f64 = 1e-9;
 pub(crate) const CHOSEN_PIVOT: f64 = 0.3;
 
 /// A direction is determined by the chosen directions if less than this share of it is free. Unit:
-/// share. Too small: coordinates are accepted that depend on the chosen ones. Too large: useful
-/// coordinates near a dead centre are rejected. Test: `asked_coordinates_have_to_be_independent`.
+/// share. Too small: coordinates are accepted that depend on the chosen coordinates. Too large:
+/// useful coordinates near a dead centre are rejected. Test:
+/// `asked_coordinates_have_to_be_independent`.
 pub(crate) const DEPENDENT_COORDINATE: f64 = 1e-6;
 
 // Projection.
 
-/// Maximum number of position corrections per projection. One or two are usual; very loose
-/// tolerances need more. Unit: corrections. Too small: steps with loose tolerances are rejected.
-/// Too large: a diverging projection takes longer to fail. Test:
+/// Maximum number of position corrections in one projection. One or two corrections are usual. Very
+/// loose tolerances need more. Unit: corrections. Too small: steps with loose tolerances are
+/// rejected. Too large: a diverging projection takes longer to fail. Test:
 /// `it_is_where_its_drive_is_by_every_method`.
 pub(crate) const CORRECTIONS: usize = 20;
 
-/// Maximum number of position corrections by generated code; after them, the run uses the
+/// Maximum number of position corrections by generated code. After this number, the run uses the
 /// interpreter. Unit: corrections. Too small: the run stops using generated code at steps with
 /// loose tolerances. Too large: runs take longer. Test: `limits_stand_in_their_order`.
 pub(crate) const CODE_CORRECTIONS: usize = 6;
@@ -284,9 +287,10 @@ pub(crate) const FEW_ROUNDINGS: f64 = 1.0;
 /// `limits_stand_in_their_order`.
 pub(crate) const WEAK: f64 = 0.5;
 
-/// Size of the terms of an independent rotation that is computed from a quaternion: a sum of four
-/// products, each at most two. Unit: rad. Too small: the completion of states fails because of
-/// rounding. Too large: rotations drift. Test: `bricards_linkage_by_an_implicit_method`.
+/// Size of the terms of an independent rotation that is computed from a quaternion. The rotation is
+/// a sum of four products, each of which is at most two. Unit: rad. Too small: the completion of
+/// states fails because of rounding. Too large: rotations drift. Test:
+/// `bricards_linkage_by_an_implicit_method`.
 pub(crate) const READ_ROTATION: f64 = 8.0;
 
 /// If a further correction does not help, independent rows count as satisfied below this number of
@@ -301,30 +305,30 @@ pub(crate) const STALLED_ROUNDINGS: f64 = 50.0;
 /// `factors_serve_as_long_as_a_correction_gains_a_digit`.
 pub(crate) const CONVERGENCE: f64 = 0.1;
 
-/// The independent rows imply a redundant row if its residual is below this share of its terms.
-/// These are its own terms, and the terms of the independent rows times their coefficients. For
-/// example, the terms of a row with an arm of 1e30 m do not limit the violation of an angle. Unit:
-/// share of terms. Too small: rounding errors of the independent rows, 1e-15, cause good steps to
-/// be rejected. Too large: contradictions between rows are detected late. Test:
+/// The independent rows imply a redundant row if its residual is below this share of its terms. The
+/// terms are those of the row itself, and those of the independent rows times their coefficients.
+/// For example, the terms of a row with an arm of 1e30 m do not limit the violation of an angle.
+/// Unit: share of terms. Too small: rounding errors of the independent rows, 1e-15, cause good
+/// steps to be rejected. Too large: contradictions between rows are detected late. Test:
 /// `drives_that_contradict_each_other_later_stop_the_run_and_keep_its_rows`.
 pub(crate) const DROPPED_MISFIT: f64 = 1e-11;
 
-/// A constraint violation that grows by less than this share counts as unchanged, and the time of
-/// its first occurrence is reported. Unit: share of the misfit. Too small: a rounding error decides
-/// the time of a constant violation. Too large: the reported time of a growing violation is too
-/// early. Test: `a_door_on_two_hinges_misses_by_their_distance`.
+/// A constraint violation that grows by less than this share counts as unchanged. In this case, the
+/// time of its first occurrence is reported. Unit: share of the misfit. Too small: a rounding error
+/// decides the time of a constant violation. Too large: the reported time of a growing violation is
+/// too early. Test: `a_door_on_two_hinges_misses_by_their_distance`.
 pub(crate) const SAME_MISFIT: f64 = 1e-9;
 
-/// However slow the motion is, the velocities of redundant rows may differ by this share of the
-/// size of the mechanism per duration of the run. The share is some hundred rounding errors. Unit:
-/// share of size. Too small: mechanisms at rest are rejected. Too large: slow contradictions are
-/// not detected. Test: `limits_stand_in_their_order`.
+/// The velocities of redundant rows may differ by this share of the size of the mechanism per
+/// duration of the run, even if the motion is slow. The share is some hundred rounding errors.
+/// Unit: share of size. Too small: mechanisms at rest are rejected. Too large: slow contradictions
+/// are not detected. Test: `limits_stand_in_their_order`.
 pub(crate) const AT_REST: f64 = 1e-13;
 
-/// The residual of a redundant row of Φ must not exceed this share of its own terms, however large
-/// the distances in the independent rows that imply it. Unit: share of terms. Too small: distant
-/// points cause good steps to be rejected. Too large: another configuration of the independent rows
-/// is accepted. Test: `limits_stand_in_their_order`.
+/// The residual of a redundant row of Φ must not exceed this share of the terms of the row, even if
+/// the distances in the independent rows that imply it are large. Unit: share of terms. Too small:
+/// distant points cause good steps to be rejected. Too large: another configuration of the
+/// independent rows is accepted. Test: `limits_stand_in_their_order`.
 pub(crate) const POSITION_MISFIT: f64 = 1e-5;
 
 /// If the pivots fall, the allowed residual of redundant rows increases, down to this share of the
@@ -348,9 +352,9 @@ pub(crate) const CODE_AT_REST: f64 = 1e-4;
 /// `partitions_are_renewed_as_a_blade_turns`.
 pub(crate) const PARTITION_WORN: f64 = 0.5;
 
-/// If a dependent coordinate moves by more than this when a state is completed, the state may be on
-/// another branch or in another revolution. Unit: share of the mechanism's size, or rad. Too small:
-/// long steps are rejected. Too large: the motion changes to another branch. Test:
+/// If a dependent coordinate moves by more than this limit when a state is completed, the state may
+/// be on another branch or in another revolution. Unit: share of the mechanism's size, or rad. Too
+/// small: long steps are rejected. Too large: the motion changes to another branch. Test:
 /// `shifted_systems_are_solved`.
 pub(crate) const FAR_COMPLETION: f64 = 0.6;
 
@@ -365,9 +369,10 @@ pub(crate) const FAR_EXTRAPOLATED: f64 = 2.0;
 /// motions are rejected. Too large: the motion changes to another branch. Test: none.
 pub(crate) const FAR_IN_A_STEP: f64 = 0.5;
 
-/// Allowed distance in addition to [`FAR_IN_A_STEP`]; it applies even if the mechanism does not
-/// move. Unit: share of the mechanism's size, or rad. Too small: starts from rest are rejected. Too
-/// large: the motion changes to another branch. Test: `a_grip_of_1e12_takes_few_steps`.
+/// Allowed distance in addition to [`FAR_IN_A_STEP`]. The distance applies even if the mechanism
+/// does not move. Unit: share of the mechanism's size, or rad. Too small: starts from rest are
+/// rejected. Too large: the motion changes to another branch. Test:
+/// `a_grip_of_1e12_takes_few_steps`.
 pub(crate) const FAR_AT_REST: f64 = 1e-2;
 
 // Exchange of independent rows.
@@ -378,14 +383,14 @@ pub(crate) const FAR_AT_REST: f64 = 1e-2;
 /// chosen again at every step. Test: `limits_stand_in_their_order`.
 pub(crate) const PIVOT_LOSS: f64 = 0.1;
 
-/// The rows requested by the user are used again above this share. Unit: share of pivots. Too
-/// small: the rows change at every step. Too large: the requested rows are not used again. Test:
-/// `limits_stand_in_their_order`.
+/// Share of pivots above which the rows requested by the user are used again. Unit: share of
+/// pivots. Too small: the rows change at every step. Too large: the requested rows are not used
+/// again. Test: `limits_stand_in_their_order`.
 pub(crate) const PIVOT_RECOVERY: f64 = 0.2;
 
 /// Rows that the program chose are exchanged if a coefficient in a redundant row is larger than
-/// this. Unit: 1. Too small: the rows are chosen again at every step. Too large: redundant rows are
-/// violated. Test: `rows_that_multiply_their_rounding_are_exchanged`.
+/// this limit. Unit: 1. Too small: the rows are chosen again at every step. Too large: redundant
+/// rows are violated. Test: `rows_that_multiply_their_rounding_are_exchanged`.
 pub(crate) const LARGE_COEFFICIENT: f64 = 10.0;
 
 /// Other rows are used if their coefficients are smaller by at least this factor. Unit: 1. Too
@@ -403,9 +408,9 @@ pub(crate) const SOUND: f64 = 0.5;
 
 /// Below this share, positions are corrected at least once. A state whose rows have a rounding
 /// error δ has a position error δ/share and an acceleration error δ/share². One correction makes
-/// angles exact, whatever the rounding error of the coordinates. Unit: share of pivots. Too small:
-/// steps through singular configurations far from the origin fail. Too large: unnecessary
-/// corrections are computed. Test: `parallelograms_pass_their_flat_poses_at_speed`.
+/// angles exact, for any rounding error of the coordinates. Unit: share of pivots. Too small: steps
+/// through singular configurations far from the origin fail. Too large: unnecessary corrections are
+/// computed. Test: `parallelograms_pass_their_flat_poses_at_speed`.
 pub(crate) const SHARPENED: f64 = 0.2;
 
 /// Below this share, rows are ill-conditioned, and the stages of a method must be on the constraint
@@ -421,14 +426,13 @@ pub(crate) const DELICATE: f64 = 0.1;
 pub(crate) const SUSPECT: f64 = 0.1;
 
 /// Smallest allowed distance between the end of a step and a singular configuration. Unit: share of
-/// pivots. Too small: a projection cannot distinguish the branches. Too large: no step can end
-/// where the motion is slow. Test: `pivots_are_compared_with_what_the_tolerance_leaves_of_them`.
+/// pivots. Too small: a projection cannot distinguish the branches. Too large: no step can end if
+/// the motion is slow. Test: `pivots_are_compared_with_what_the_tolerance_leaves_of_them`.
 pub(crate) const NEAREST: f64 = 1e-3;
 
 /// The smallest distance to a singular configuration in units of the relative tolerance. Unit:
 /// tolerances. Too small: steps with loose tolerances take another branch. Too large: no step can
-/// end where the motion is slow. Test:
-/// `pivots_are_compared_with_what_the_tolerance_leaves_of_them`.
+/// end if the motion is slow. Test: `pivots_are_compared_with_what_the_tolerance_leaves_of_them`.
 pub(crate) const NEAREST_TOLERANCES: f64 = 100.0;
 
 /// Upper limit of the smallest distance to a singular configuration, for loose tolerances. Unit:
@@ -455,10 +459,10 @@ pub(crate) const FALLEN: f64 = 0.1;
 /// `forty_four_bars_are_where_one_angle_says`.
 pub(crate) const FORESIGHT: f64 = 12.0;
 
-/// Implicit methods are replaced by `dop853` this number of steps before a singular configuration;
-/// explicit methods as soon as it is predicted. Unit: steps. Too small: implicit methods step over
-/// the singular configuration and fail. Too large: explicit steps are made under stiff forces.
-/// Test: `a_grip_of_1e12_takes_few_steps`.
+/// An implicit method is replaced by `dop853` this number of steps before a singular configuration.
+/// An explicit method is replaced as soon as the singular configuration is predicted. Unit: steps.
+/// Too small: implicit methods step over the singular configuration and fail. Too large: explicit
+/// steps are made under stiff forces. Test: `a_grip_of_1e12_takes_few_steps`.
 pub(crate) const IMPLICIT_REACH: f64 = 4.0;
 
 /// Limit for the constraint violation that the rounding error of the coordinates causes. Above this
@@ -483,16 +487,17 @@ pub(crate) const LEAST_SCALE: f64 = 0.1;
 pub(crate) const PASSED: f64 = 1e-9;
 
 /// Largest correction of a step over a singular configuration. Unit: share of the distance at which
-/// the step ends; other branches are at a similar distance. Too small: runs stop before the
+/// the step ends. Other branches are at a similar distance. Too small: runs stop before the
 /// singular configuration. Too large: the motion changes to another branch. Test:
 /// `a_run_may_end_in_the_flat_pose_or_beside_it`.
 pub(crate) const SMOOTH: f64 = 0.01;
 
-/// Allowed difference between the velocities after a singular configuration and the velocities that
-/// follow from the accelerations on both sides. A step over it is short relative to the curvature
-/// of the motion, and another branch has another direction. Unit: share of momentum. Too small:
-/// runs stop after the singular configuration. Too large: the motion changes to another branch.
-/// Test: `flat_poses_of_many_four_bars_are_passed_on_the_branch`.
+/// Allowed difference between two velocities after a singular configuration: the computed
+/// velocities, and the velocities extrapolated with the accelerations on both sides. A step over a
+/// singular configuration is short relative to the curvature of the motion, and another branch has
+/// another direction. Unit: share of momentum. Too small: runs stop after the singular
+/// configuration. Too large: the motion changes to another branch. Test:
+/// `flat_poses_of_many_four_bars_are_passed_on_the_branch`.
 pub(crate) const KINK: f64 = 0.25;
 
 /// If the step size becomes too small, a contradiction of constraints is reported as the cause. The
@@ -507,13 +512,13 @@ pub(crate) const JUST_AHEAD: f64 = 1e-9;
 /// `pivots_are_compared_with_what_the_tolerance_leaves_of_them`.
 pub(crate) const NO_REACTIONS: f64 = 1e-6;
 
-/// The limit for reactions in units of the relative tolerance: a row with a motion error δ has
+/// The limit for reactions in units of the relative tolerance. A row with a motion error δ has
 /// reactions with an error of δ/share. Unit: tolerances. Too small: reactions are wrong. Too large:
 /// accurate reactions are left out. Test:
 /// `pivots_are_compared_with_what_the_tolerance_leaves_of_them`.
 pub(crate) const NO_REACTIONS_TOLERANCES: f64 = 1e3;
 
-/// At pivots above this share, reactions are reported even if the tolerance is loose. Unit: share
+/// Share of pivots above which reactions are reported even if the tolerance is loose. Unit: share
 /// of pivots. Too small: reactions are wrong. Too large: accurate reactions are left out. Test:
 /// `pivots_are_compared_with_what_the_tolerance_leaves_of_them`.
 pub(crate) const NO_REACTIONS_MAX: f64 = 1e-2;
@@ -525,23 +530,24 @@ pub(crate) const NO_REACTIONS_MAX: f64 = 1e-2;
 /// longer. Test: `forty_four_bars_are_where_one_angle_says`.
 pub(crate) const PLACES: usize = 16;
 
-/// Accuracy of the instant at which a pivot is smallest; the pivot is then accurate to the same
+/// Accuracy of the instant at which a pivot is smallest. The pivot is then accurate to the same
 /// share. Unit: share of the interval. Too small: the search takes longer. Too large: singular
 /// configurations are overlooked. Test: none.
 pub(crate) const SHARP: f64 = 1e-7;
 
-/// A singular configuration is searched for up to this multiple of the distance at which a straight
-/// line reaches it. Unit: distances. Too small: pivots that vanish along a curve are not predicted.
-/// Too large: the search takes longer. Test: `forty_four_bars_are_where_one_angle_says`.
+/// A singular configuration is searched for up to this multiple of a distance. The distance is that
+/// at which a linear extrapolation reaches the singular configuration. Unit: distances. Too small:
+/// pivots that vanish along a curve are not predicted. Too large: the search takes longer. Test:
+/// `forty_four_bars_are_where_one_angle_says`.
 pub(crate) const BEYOND: f64 = 1.5;
 
-/// A pivot that falls to this share of the current one and rises again counts as vanishing, because
-/// the predicted path is only a parabola. Unit: share of the current pivot. Too small: singular
-/// configurations are not predicted. Too large: steps avoid regular configurations. Test:
+/// A pivot that falls to this share of the current pivot and rises again counts as vanishing,
+/// because the predicted path is only a parabola. Unit: share of the current pivot. Too small:
+/// singular configurations are not predicted. Too large: steps avoid regular configurations. Test:
 /// `limits_stand_in_their_order`.
 pub(crate) const VANISHES: f64 = 0.2;
 
-/// A search is made if a pivot falls below this share of the current one at one of [`GLANCES`]
+/// A search is made if a pivot falls below this share of the current pivot at one of [`GLANCES`]
 /// instants. A pivot that vanishes between two of these instants is detected, unless it vanishes
 /// much earlier than expected. Unit: share of the current pivot. Too small: singular configurations
 /// are not predicted. Too large: the search takes longer. Test: `limits_stand_in_their_order`.
@@ -589,9 +595,9 @@ pub(crate) const BESIDE: f64 = 0.02;
 
 // Jumps.
 
-/// Residuals below this share of the terms of their row do not count as jumps. For rates, the sum
-/// of the terms of the largest row is the reference. Unit: share of terms. Too small: a rounding
-/// error counts as an impulse. Too large: small jumps are not reported. Test:
+/// Residuals below this share of the terms of their row do not count as jumps. For rates, the
+/// reference is the sum of the terms of the row with the largest terms. Unit: share of terms. Too
+/// small: a rounding error counts as an impulse. Too large: small jumps are not reported. Test:
 /// `smooth_steps_are_no_jumps`.
 pub(crate) const NO_JUMP: f64 = 1e-9;
 
@@ -613,9 +619,10 @@ pub(crate) const REMAINS: f64 = 0.5;
 /// rows on another branch are accepted. Test: `rows_lie_where_their_step_leads`.
 pub(crate) const ROW_DEVIATION: f64 = 0.25;
 
-/// Allowed distance in addition to [`ROW_DEVIATION`]; it applies even if the mechanism does not
-/// move. Unit: share of the mechanism's size, or rad. Too small: good output rows are rejected. Too
-/// large: output rows on another branch are accepted. Test: `rows_lie_where_their_step_leads`.
+/// Allowed distance in addition to [`ROW_DEVIATION`]. The distance applies even if the mechanism
+/// does not move. Unit: share of the mechanism's size, or rad. Too small: good output rows are
+/// rejected. Too large: output rows on another branch are accepted. Test:
+/// `rows_lie_where_their_step_leads`.
 pub(crate) const ROW_DEVIATION_AT_REST: f64 = 1e-3;
 
 /// Velocities along a step may be this multiple of the mean velocity of the step. Unit: 1. Too
@@ -624,13 +631,13 @@ pub(crate) const ROW_DEVIATION_AT_REST: f64 = 1e-3;
 /// `a_drive_that_rests_at_both_ends_of_a_step_may_be_fast_between`.
 pub(crate) const PEAK: f64 = 3.0;
 
-/// A step that is repeated many times discards its stored stages after this number of trials. Unit:
-/// times. Too small: stages are evaluated twice. Too large: more memory is used. Test: none, work
-/// only.
+/// Number of trials after which a step that is repeated many times discards its stored stages.
+/// Unit: times. Too small: stages are evaluated twice. Too large: more memory is used. Test: none,
+/// work only.
 pub(crate) const REMEMBERED: usize = 256;
 
-/// Number of output rows by which a component may be ahead of the others. Unit: rows. Too small:
-/// threads wait for each other. Too large: more memory is used. Test: none, work only.
+/// Number of output rows by which a component may be ahead of the other components. Unit: rows. Too
+/// small: threads wait for each other. Too large: more memory is used. Test: none, work only.
 pub(crate) const AHEAD: usize = 64;
 
 // Generated code.
@@ -642,7 +649,7 @@ pub(crate) const AHEAD: usize = 64;
 /// `limits_stand_in_their_order`.
 pub const LEAVE: f64 = 0.1;
 
-/// A run uses generated code again above this health. Unit: share of the pivots for which the code
+/// Health above which a run uses generated code again. Unit: share of the pivots for which the code
 /// was generated. Too small: the run switches frequently. Too large: the code is not used again.
 /// Test: `limits_stand_in_their_order`.
 pub(crate) const RETURN: f64 = 0.3;
@@ -658,30 +665,31 @@ pub(crate) const PATIENCE: u64 = 8;
 pub(crate) const SAME_ACCELERATIONS: f64 = 1e-9;
 
 /// Allowed difference between the values of generated code and of the interpreter at the start and
-/// near it. Unit: share of terms. Too small: rounding errors cause code to be rejected. Too large:
-/// code of a similar mechanism is accepted. Test: `code_of_another_mechanism_is_refused`.
+/// at states near the start. Unit: share of terms. Too small: rounding errors cause code to be
+/// rejected. Too large: code of a similar mechanism is accepted. Test:
+/// `code_of_another_mechanism_is_refused`.
 pub(crate) const SAME_VALUES: f64 = 1e-9;
 
 /// Number of states near the start at which values are compared. Unit: states. Too small: the code
 /// of another mechanism agrees by chance. Too large: the comparison takes longer. Test: none.
 pub(crate) const CODE_STATES: usize = 6;
 
-/// Distance of the states for this comparison from the start. Unit: size of the mechanism, or rad.
+/// Distance from the start of the states for this comparison. Unit: size of the mechanism, or rad.
 /// Too small: differences in geometry are not detected. Too large: the code is not healthy at these
 /// states. Test: none.
 pub(crate) const DISTANCE: f64 = 0.01;
 
-/// Velocities at the states for this comparison; they must be so large that terms quadratic in the
-/// velocities are significant. Unit: size of the mechanism, or rad, per second. Too small: these
-/// terms are not significant. Too large: these terms dominate all others. Test:
-/// `code_of_another_mechanism_is_refused`.
+/// Velocities at the states for this comparison. The velocities must be so large that terms
+/// quadratic in the velocities are significant. Unit: size of the mechanism, or rad, per second.
+/// Too small: these terms are not significant. Too large: these terms dominate all other terms.
+/// Test: `code_of_another_mechanism_is_refused`.
 pub(crate) const SPEED: f64 = 1.0;
 
 // Choices of method and components.
 
-/// A motion is stiff if an explicit method would need more steps than this for stability alone.
-/// Unit: steps. Too small: implicit methods are used for motions that explicit methods compute
-/// faster. Too large: runs take hours. Test:
+/// A motion is stiff if an explicit method would need more steps than this number for stability
+/// alone. Unit: steps. Too small: implicit methods are used for motions that explicit methods
+/// compute faster. Too large: runs take hours. Test:
 /// `components_move_as_they_do_alone_and_each_at_its_own_pace`.
 pub(crate) const STIFF: f64 = 2e4;
 
@@ -691,7 +699,7 @@ pub(crate) const STIFF: f64 = 2e4;
 /// `explicit_steps_are_stable_up_to_the_limit_and_not_far_beyond`.
 pub(crate) const STABLE: f64 = 6.0;
 
-/// Number of iterations for the largest |λ|; only the second half is used for the result. Unit:
+/// Number of iterations for the largest |λ|. Only the second half is used for the result. Unit:
 /// iterations. Too small: the rate of oscillations is wrong. Too large: the choice takes longer.
 /// Test: `the_fastest_rate_is_found_also_of_oscillations`.
 pub(crate) const POWER_ITERATIONS: usize = 64;
@@ -701,9 +709,9 @@ pub(crate) const POWER_ITERATIONS: usize = 64;
 /// save. Test: `too_many_components_stay_one`.
 pub(crate) const MOST_COMPONENTS: usize = 256;
 
-/// Maximum number of bodies of a component that are named; for more bodies, their number is given.
-/// Unit: bodies. Too small or too large: names of components are too short or too long. Test:
-/// `three_bodies_are_named_and_more_are_counted`.
+/// Maximum number of bodies of a component that are named. For more bodies, their number is
+/// printed. Unit: bodies. Too small or too large: names of components are too short or too long.
+/// Test: `three_bodies_are_named_and_more_are_counted`.
 pub(crate) const NAMED: usize = 3;
 
 /// Rows with a weight below this share of the largest weight are not listed in a combination that
@@ -752,15 +760,15 @@ impl MotionOptions {
 /// `a_body_leaves_its_supports_at_the_instant_of_the_closed_form`.
 pub(crate) const OPENING_TIME: f64 = 1e-15;
 
-/// Maximum number of states at which this instant is searched. Unit: states. Too small: the instant
-/// is inaccurate. Too large: the search takes long. Test: none, work only.
+/// Maximum number of states at which the opening instant is searched. Unit: states. Too small: the
+/// instant is inaccurate. Too large: the search takes long. Test: none, work only.
 pub(crate) const OPENING_SEARCH: usize = 80;
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    /// In each row of the table, each value is less than the next one; otherwise a state would
+    /// In each row of the table, each value is less than the next value. Otherwise a state would
     /// belong to two classes.
     #[test]
     fn limits_stand_in_their_order() {
@@ -805,7 +813,7 @@ mod tests {
             let is_ordered = values.windows(2).all(|w| w[0] < w[1]);
             assert!(is_ordered, "{what}: {values:?}");
         }
-        // If rows are left out, redundant rows must not have larger residuals than this.
+        // If rows are left out, redundant rows must not have residuals larger than this limit.
         assert_eq!([NEAREST_PIVOT], [PIVOT_SINGULAR]);
     }
 }

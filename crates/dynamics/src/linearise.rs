@@ -1,16 +1,16 @@
 //! Small motions about an equilibrium or a steady motion: `ẋ = A·x + B·u`.
 //!
 //! The state x consists of independent positions and independent velocities. The number of
-//! positions is the number of degrees of freedom with the holonomic rows alone, and the number of
-//! velocities is that with all rows. Positions and velocities are small changes of named
-//! coordinates of the bodies: translations and rotations of their frames. The axes may rotate with
-//! one of the bodies ([`LineariseOptions::follow`]).
+//! positions is the number of degrees of freedom with the holonomic rows alone. The number of
+//! velocities is the number of degrees of freedom with all rows. Positions and velocities are small
+//! changes of named coordinates of the bodies: translations and rotations of their frames. The axes
+//! may rotate with one of the bodies ([`LineariseOptions::follow`]).
 //!
-//! The state is displaced along a curve whose direction satisfies the linearised constraints, and
-//! the accelerations on independent rows are differentiated along this curve. The derivative
-//! depends only on the direction, so the curve needs no projection. Central differences of order
-//! eight with steps of 1/128 of the size of the mechanism are accurate to rounding. The difference
-//! between order eight and order six is the error estimate.
+//! The state is displaced along a curve whose direction satisfies the linearised constraints. The
+//! accelerations on independent rows are differentiated along this curve. The derivative depends
+//! only on the direction, so the curve needs no projection. Central differences of order eight with
+//! steps of 1/128 of the size of the mechanism are accurate to rounding. The error estimate is the
+//! difference between the results of order eight and order six.
 
 mod bases;
 mod chosen;
@@ -45,15 +45,15 @@ pub use modes::{Mode, Stability};
 /// Options of a linearisation.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct LineariseOptions {
-    /// Requested independent coordinates, such as `crank.angle`; the program chooses the remaining
-    /// ones.
+    /// Requested independent coordinates, such as `crank.angle`. The program chooses the remaining
+    /// coordinates.
     pub coordinates: Vec<String>,
-    /// Cyclic coordinates of a steady motion, such as `frame.x` or `frame.wz`; they are eliminated,
-    /// and the axes rotate with the last one.
+    /// Cyclic coordinates of a steady motion, such as `frame.x` or `frame.wz`. The cyclic
+    /// coordinates are eliminated, and the axes rotate with the last cyclic coordinate.
     pub follow: Vec<String>,
 }
 
-/// Linearises the motion about the state q, v at time t; the state must satisfy the constraints.
+/// Linearises the motion about the state q, v at time t. The state must satisfy the constraints.
 ///
 /// At rest (v = 0), functions of time keep their values at t, as in [`crate::equilibrium`]. A
 /// deviation of a drive from this value is an input.
@@ -136,8 +136,8 @@ pub fn linearise(
     })
 }
 
-/// M, D and K of a state at rest whose independent velocities are the rates of its independent
-/// positions.
+/// Returns M, D and K of a state at rest. The independent velocities must be the rates of the
+/// independent positions.
 fn second_order(x: &Linearisation, curves: &Curves<'_>, bases: &Bases) -> Option<SecondOrder> {
     let n = x.positions.len();
     if !curves.is_at_rest() || x.velocities.len() != n {

@@ -1,6 +1,7 @@
-//! The constraint manifold: moves q and v onto it and along it, and computes residuals. No other
-//! module writes accepted coordinates and velocities, neither for independent rows nor for
-//! generated code. The module [`crate::watch`] decides whether a step may end at a state.
+//! The constraint manifold. This module moves q and v onto the manifold and along it, and computes
+//! residuals. No other module writes accepted coordinates and velocities, neither for independent
+//! rows nor for generated code. The module [`crate::watch`] decides whether a step may end at a
+//! state.
 
 mod coordinates;
 mod dropped;

@@ -1,8 +1,8 @@
-//! The motion of a mechanism on independent rows: combines its equations (`solve`), its constraints
-//! (`manifold`) and the monitors (`watch`). The independent rows may become ill-conditioned
-//! although the rank stays the same, for example if a knife edge rotates. Then the motion continues
-//! with other independent rows from an accepted and corrected state; this does not change the
-//! motion.
+//! The motion of a mechanism on independent rows. This module combines the equations (`solve`), the
+//! constraints (`manifold`) and the monitors (`watch`). The independent rows may become
+//! ill-conditioned although the rank stays the same, for example if a knife edge rotates. The
+//! motion then continues with other independent rows from an accepted and corrected state. This
+//! exchange does not change the motion.
 //!
 //! The rows that the user requests to drop are dropped again as soon as the other rows are
 //! independent again. Reactions always belong to the requested choice of rows.
@@ -21,8 +21,8 @@ use crate::prepare::PreparedMechanism;
 use crate::solve::{Accelerations, Evaluation, KeptEquations, KeptRows, Misfits, State};
 use crate::watch::{CodeSwitch, Monitors, Next, are_worn};
 
-/// A mechanism on independent rows. All memory is allocated here; accelerations and projections
-/// allocate no memory.
+/// A mechanism on independent rows. All memory is allocated when the motion is created.
+/// Accelerations and projections allocate no memory.
 pub struct KeptRowMotion<'m> {
     pub(crate) equations: KeptEquations<'m>,
     pub(crate) manifold: Manifold,
@@ -32,7 +32,7 @@ pub struct KeptRowMotion<'m> {
 }
 
 impl<'m> KeptRowMotion<'m> {
-    /// The motion of a prepared mechanism on independent rows, with projection and without
+    /// Creates the motion of a prepared mechanism on independent rows, with projection and without
     /// generated code.
     ///
     /// # Errors
@@ -41,12 +41,12 @@ impl<'m> KeptRowMotion<'m> {
         Self::interpreted(prepared, &MotionOptions::to(0.0))
     }
 
-    /// The motion of a prepared mechanism with the method and stabilisation of a run, and with
-    /// generated code if available.
+    /// Creates the motion of a prepared mechanism with the method and stabilisation of a run, and
+    /// with generated code if available.
     ///
     /// # Errors
-    /// Returns the same errors as [`KeptRowMotion::new`]; also if no independent coordinates can be
-    /// chosen for an implicit method.
+    /// Returns the same errors as [`KeptRowMotion::new`]. Also returns an error if no independent
+    /// coordinates can be chosen for an implicit method.
     pub fn with(
         prepared: &'m PreparedMechanism,
         options: &MotionOptions,
@@ -54,8 +54,8 @@ impl<'m> KeptRowMotion<'m> {
         Self::evaluated(prepared, options, None)
     }
 
-    /// Like [`KeptRowMotion::with`]; `evaluator` evaluates the generated code if the motion uses
-    /// it.
+    /// Works like [`KeptRowMotion::with`]. `evaluator` evaluates the generated code if the motion
+    /// uses generated code.
     pub(crate) fn evaluated(
         prepared: &'m PreparedMechanism,
         options: &MotionOptions,
@@ -101,20 +101,20 @@ impl<'m> KeptRowMotion<'m> {
         })
     }
 
-    /// The mechanism of the motion.
+    /// Returns the mechanism of the motion.
     #[must_use]
     pub fn mechanism(&self) -> &'m Mechanism {
         self.equations.at.mechanism
     }
 
-    /// Results of the last evaluation, such as poses and forces.
+    /// Returns the results of the last evaluation, such as poses and forces.
     #[must_use]
     pub fn scratch(&self) -> &Scratch {
         &self.equations.at.s
     }
 
-    /// Smallest pivot of the last factorisation relative to its row: small near singular
-    /// configurations.
+    /// Returns the smallest pivot of the last factorisation relative to its row. The value is small
+    /// near singular configurations.
     #[must_use]
     pub fn pivot_ratio(&self) -> f64 {
         self.equations.velocity.pivot_ratio()
@@ -154,15 +154,15 @@ impl<'m> KeptRowMotion<'m> {
             .choose_coordinates(&mut self.equations, Origin { t, q, v })
     }
 
-    /// Independent coordinates and velocities, ascending. Returns `None` if the motion uses all
-    /// coordinates.
+    /// Returns the independent coordinates and velocities, ascending. Returns `None` if the motion
+    /// uses all coordinates.
     #[must_use]
     pub fn independent(&self) -> Option<(&[usize], &[usize])> {
         let coordinates = self.manifold.coordinates.as_ref();
         coordinates.map(|c| (&c.partition.z[..], &c.partition.u[..]))
     }
 
-    /// Whether the motion uses generated code.
+    /// Returns whether the motion uses generated code.
     pub(crate) fn is_on_code(&self) -> bool {
         self.code.as_ref().is_some_and(CodeSwitch::is_in_use)
     }
@@ -189,7 +189,7 @@ impl<'m> KeptRowMotion<'m> {
         };
         let equations = &mut self.equations;
         equations.at.pose_and_phi(origin.t, &origin.q);
-        // The decision on an exchange of rows is made without a partition.
+        // An exchange of rows is decided without a partition.
         for rows in [&mut equations.velocity, &mut equations.position] {
             rows.forget_partition();
             rows.factor(&equations.at)?;
@@ -236,9 +236,9 @@ impl<'m> KeptRowMotion<'m> {
         self.manifold.project(&mut self.equations, t, (q, v))
     }
 
-    /// Multipliers of all rows. The multipliers of redundant rows are zero. All multipliers are NaN
-    /// if the independent rows are dependent at exactly this instant, because then the multipliers
-    /// are not defined.
+    /// Returns the multipliers of all rows. The multipliers of redundant rows are zero. All
+    /// multipliers are NaN if the independent rows are dependent at exactly this instant, because
+    /// the multipliers are then not defined.
     ///
     /// # Errors
     /// Returns the same errors as [`KeptRowMotion::acceleration`].
@@ -253,7 +253,7 @@ impl<'m> KeptRowMotion<'m> {
         self.write_multipliers(t, q, v, lambda.to_be_written())
     }
 
-    /// Like [`Self::multipliers`], but writes only the values.
+    /// Works like [`Self::multipliers`], but writes only the values.
     pub(crate) fn write_multipliers(
         &mut self,
         t: f64,
@@ -278,8 +278,9 @@ impl<'m> KeptRowMotion<'m> {
     /// applied forces. With independent coordinates the dependent entries of y have no effect.
     ///
     /// # Errors
-    /// Returns the same errors as [`KeptRowMotion::acceleration`]; [`MotionFault::OffConstraints`],
-    /// [`MotionFault::IndependentCoordinates`] if a state cannot be completed.
+    /// Returns the same errors as [`KeptRowMotion::acceleration`]. Also returns
+    /// [`MotionFault::OffConstraints`] or [`MotionFault::IndependentCoordinates`] if a state cannot
+    /// be completed.
     ///
     /// # Panics
     /// Panics if `y` or `dy` are shorter than n_q + n_v.
@@ -313,8 +314,8 @@ impl<'m> KeptRowMotion<'m> {
         Ok(())
     }
 
-    /// Like [`Self::derivative`], at a state that a projection has just moved onto the constraint
-    /// manifold and at which the rows are factored.
+    /// Works like [`Self::derivative`], at a state that a projection has just moved onto the
+    /// constraint manifold. The rows must be factored at this state.
     ///
     /// # Errors
     /// Returns the same errors as [`KeptRowMotion::derivative`].
@@ -334,19 +335,19 @@ impl<'m> KeptRowMotion<'m> {
         Ok(())
     }
 
-    /// Accelerations of a stage, computed without generated code.
+    /// Computes the accelerations of a stage without generated code.
     fn interpret(&mut self, state: State<'_>, a: &mut [f64]) -> Result<(), MotionFault> {
         self.equations.factor_at(state.t, state.q)?;
         self.solve_factored(state.v, a)
     }
 
-    /// Computes the accelerations if the pose is evaluated and the rows are factored.
+    /// Computes the accelerations. The pose must be evaluated, and the rows must be factored.
     pub(crate) fn solve_factored(&mut self, v: &[f64], a: &mut [f64]) -> Result<(), MotionFault> {
         self.watch.passage.see(&self.equations.velocity);
         self.equations.solve_factored(v, a)
     }
 
-    /// Multipliers of all rows for the accelerations a of the last evaluation.
+    /// Returns the multipliers of all rows for the accelerations a of the last evaluation.
     pub(crate) fn multipliers_for(
         &mut self,
         a: &[f64],
@@ -356,14 +357,15 @@ impl<'m> KeptRowMotion<'m> {
         self.equations.multipliers_for(a, lambda)
     }
 
-    /// The parts q and v of y.
+    /// Returns the parts q and v of y.
     pub(crate) fn parts<'y>(&self, y: &'y [f64]) -> (&'y [f64], &'y [f64]) {
         let layout = self.mechanism().layout();
         let (q, rest) = y.split_at(layout.n_q);
         (q, &rest[..layout.n_v])
     }
 
-    /// The parts q and v of y, and the work if y contains it; or the rates of these parts.
+    /// Returns the parts q and v of y, and the work if y contains the work. If y contains rates,
+    /// the parts are rates.
     pub(crate) fn parts_mut<'y>(
         &self,
         y: &'y mut [f64],
@@ -375,9 +377,9 @@ impl<'m> KeptRowMotion<'m> {
     }
 
     /// Moves the end of a step that passed its error test onto the constraint manifold, or computes
-    /// its residuals. Selects other independent rows if the current ones are ill-conditioned there.
-    /// If `has_to_end` is true, the step ends at t whatever the configuration. Events are reported
-    /// when the step is accepted.
+    /// the residuals of the end. Selects other independent rows if the current rows are
+    /// ill-conditioned at the end. If `has_to_end` is true, the step ends at t at any
+    /// configuration. Events are reported when the step is accepted.
     pub(crate) fn end_step(
         &mut self,
         t: f64,
@@ -419,8 +421,8 @@ impl<'m> KeptRowMotion<'m> {
         Ok(manifold.finish(equations, v, corrections)?)
     }
 
-    /// Like [`Self::end_step`], for states without projection: the independent rows are monitored
-    /// nevertheless.
+    /// Works like [`Self::end_step`], for states without projection. The independent rows are
+    /// nevertheless monitored.
     fn end_unprojected_step(
         &mut self,
         t: f64,
@@ -451,8 +453,8 @@ impl<'m> KeptRowMotion<'m> {
         self.watch.accept(&mut self.equations, t, may_have_passed)
     }
 
-    /// Completes an output row: projects it, or computes its residuals. Redundant rows are checked
-    /// in both cases.
+    /// Completes an output row: projects the row, or computes its residuals. Redundant rows are
+    /// checked in both cases.
     ///
     /// # Errors
     /// Returns the same errors as [`KeptRowMotion::project`].
@@ -503,8 +505,8 @@ impl<'m> KeptRowMotion<'m> {
     }
 }
 
-/// Computes q̇ and, if `rates` has an entry for it, the power of drives and applied forces at a
-/// state with acceleration a.
+/// Computes q̇. If `rates` has an entry for the power, the function also computes the power of
+/// drives and applied forces at a state with acceleration a.
 fn rates(
     mechanism: &Mechanism,
     (q, v, a): (&[f64], &[f64], &[f64]),

@@ -7,7 +7,7 @@ use std::num::NonZeroUsize;
 
 use crate::error::MotionError;
 
-/// How the equations of motion are integrated.
+/// Integration method of the equations of motion.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[non_exhaustive]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
@@ -35,7 +35,7 @@ impl Method {
         Self::Radau5,
     ];
 
-    /// Name of the method in scenes and results.
+    /// Returns the name of the method in scenes and results.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
@@ -47,20 +47,20 @@ impl Method {
         }
     }
 
-    /// Whether the method needs the Jacobian of the motion, which exists only for independent
-    /// coordinates.
+    /// Returns whether the method needs the Jacobian of the motion. The Jacobian exists only for
+    /// independent coordinates.
     #[must_use]
     pub fn needs_independent_coordinates(self) -> bool {
         self == Self::Radau5
     }
 }
 
-/// Treatment of redundant rows in every run: the run solves r independent rows and only monitors
-/// the others. The value is the name in results; reactions that are not unique depend on this
-/// treatment.
+/// Treatment of redundant rows in every run. A run solves r independent rows and only monitors the
+/// redundant rows. The value is the name in results, because reactions that are not unique depend
+/// on this treatment.
 pub const FORMULATION: &str = "kept-rows";
 
-/// [`FORMULATION`] in words.
+/// Description of [`FORMULATION`] in words.
 pub const INDEPENDENT_ROWS: &str = "independent rows";
 
 /// Method that prevents drift from the constraints.
@@ -78,7 +78,7 @@ impl Stabilisation {
     /// All methods that can be requested.
     pub const ALL: &[Self] = &[Self::Projection, Self::None];
 
-    /// Name of the method in scenes and results.
+    /// Returns the name of the method in scenes and results.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
@@ -94,7 +94,7 @@ pub enum RowChoice {
     /// The rank decision chooses well-conditioned rows.
     #[default]
     Automatic,
-    /// All rows except the given ones, counted from 0.
+    /// All rows except the given rows, counted from 0.
     Drop(Vec<usize>),
 }
 
@@ -126,7 +126,7 @@ pub struct MotionOptions {
 }
 
 impl MotionOptions {
-    /// Default options for a run to `t_end`.
+    /// Returns the default options for a run to `t_end`.
     #[must_use]
     pub fn to(t_end: f64) -> Self {
         Self {

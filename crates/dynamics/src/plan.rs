@@ -1,7 +1,7 @@
-//! The plan of a run: the computations of the run and the computations that it omits. A plan is
-//! made once from a prepared mechanism, its options and the requested output. Each decision has a
-//! reason and states what it saves; a run follows its plan ([`crate::simulate`]). Other modules
-//! contain the computations.
+//! The plan of a run: the computations of the run, and the computations that the run omits. A plan
+//! is made once from a prepared mechanism, its options and the requested output. Each decision has
+//! a reason and states which computations it saves. A run follows its plan ([`crate::simulate`]).
+//! Other modules contain the computations.
 
 mod component;
 mod decided;
@@ -27,7 +27,7 @@ pub use decisions::Decisions;
 pub use saving::{Cost, Saving};
 pub use sizes::Sizes;
 
-/// The requested output of a motion. Other values are not computed.
+/// The requested output of a motion. Values that are not requested are not computed.
 #[derive(Clone, Debug, PartialEq)]
 pub struct OutputRequest {
     /// The requested output rows.
@@ -42,29 +42,29 @@ pub struct OutputRequest {
     /// The verdicts that are requested with the reactions.
     pub verdicts: Verdicts,
     /// Additional assumptions (choices) that select one solution for reactions that are not unique.
-    /// All reactions are requested for each choice; each choice selects a solution at the start.
+    /// All reactions are requested for each choice. Each choice selects a solution at the start.
     pub choices: Vec<NamedChoice>,
 }
 
 /// Verdicts that are computed with reactions.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Verdicts {
-    /// Verdicts for time intervals, and for the instants that differ from them. These verdicts are
-    /// computed at accepted steps and output rows.
+    /// Verdicts for time intervals, and for instants whose verdicts differ from the verdict on
+    /// their interval. The verdicts are computed at accepted steps and output rows.
     WithInstants,
-    /// Verdicts on the whole run. They are computed at the start, and in each time interval at the
-    /// end of its first accepted step and at the start of its last step. If a verdict is still
-    /// undecided, they are also computed at the second, fourth, eighth … step. Further instants can
-    /// only add differing instants: between events a component is either determined throughout, or
-    /// determined at isolated instants at most. A reaction is not computed further if neither its
-    /// force nor its torque is determined in an interval.
+    /// Verdicts on the whole run. The verdicts are computed at the start, and in each time interval
+    /// at the end of its first accepted step and at the start of its last step. If a verdict is
+    /// still undecided, they are also computed at the second, fourth, eighth … step. Further
+    /// instants could only add special instants, because between events a component is determined
+    /// either throughout or only at isolated instants. A reaction is not computed further if
+    /// neither its force nor its torque is determined in an interval.
     OfRun,
     /// No verdicts.
     None,
 }
 
 impl Default for OutputRequest {
-    /// All output is requested.
+    /// All output is requested by default.
     fn default() -> Self {
         Self {
             rows: Rows::Every,
@@ -80,18 +80,18 @@ impl Default for OutputRequest {
 /// Kinds of output rows.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Rows {
-    /// At time 0, at every output step, and at the end.
+    /// Rows at time 0, at every output step, and at the end.
     #[default]
     Every,
     /// Rows at the same times, but with the states that are interpolated within steps. These states
-    /// violate the constraints by about the tolerance of the run. This function is for callers that
-    /// project the states anyway.
+    /// violate the constraints by about the tolerance of the run. This kind of rows is for callers
+    /// that project the states anyway.
     Interpolated,
-    /// At time 0 and at the end.
+    /// Rows at time 0 and at the end.
     Ends,
 }
 
-/// Which reactions are requested.
+/// The reactions that are requested.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub enum Reactions {
     /// The reactions of all joints and drives.
@@ -103,7 +103,7 @@ pub enum Reactions {
     None,
 }
 
-/// The plan of a run: its decisions.
+/// The plan of a run, as a list of its decisions.
 ///
 /// ```
 /// use pfaff_dynamics::{MotionOptions, Plan, RowChoice, OutputRequest, prepare};
@@ -195,19 +195,19 @@ impl<'a> Plan<'a> {
         })
     }
 
-    /// The prepared mechanism.
+    /// Returns the prepared mechanism.
     #[must_use]
     pub fn prepared(&self) -> &'a PreparedMechanism {
         self.prepared
     }
 
-    /// The options of the run; each component has its own method.
+    /// Returns the options of the run. Each component has its own method.
     #[must_use]
     pub fn options(&self) -> &MotionOptions {
         &self.options
     }
 
-    /// All decisions, starting with the decisions for the whole mechanism.
+    /// Returns all decisions. The decisions for the whole mechanism come first.
     #[must_use]
     pub fn lines(&self) -> Vec<Line<'_>> {
         let of_whole = [
@@ -229,7 +229,8 @@ impl<'a> Plan<'a> {
     }
 }
 
-/// Whether the reaction of each joint and drive is requested, by itself or as a part of a group.
+/// Returns, for each joint and drive, whether its reaction is requested by itself or as a part of a
+/// group.
 fn wanted_groups(
     prepared: &PreparedMechanism,
     wanted: &OutputRequest,

@@ -1,5 +1,6 @@
-//! Prepares an assembled mechanism for motion: a consistent start, a decided rank, independent
-//! rows. The rank is decided only here, at a corrected state; a run does not decide it again.
+//! Prepares an assembled mechanism for motion: a consistent start, a decided rank, and independent
+//! rows. The rank is decided only in this module, at a corrected state. A run does not decide the
+//! rank again.
 
 use std::sync::Arc;
 
@@ -33,53 +34,55 @@ pub struct PreparedMechanism {
     /// Options for the initial state, for example coordinates that the assembly must not change.
     pub start: StartOptions,
     /// Whether a tolerance is stated and there are redundant rows. These rows may be redundant only
-    /// within the tolerance. Then they have constraint violations, and the choice of the
+    /// within the tolerance. In this case they have constraint violations, and the choice of the
     /// independent rows changes the motion by a similar amount.
     pub may_miss: bool,
     /// Rank and independent rows of C.
     pub decision: RowDecision,
     /// Rank and independent rows of Φq alone, which determine the configuration.
     pub position_decision: RowDecision,
-    /// The rank decisions at the start, for each part of the mechanism; the verdicts at the start
-    /// are computed from them. `None` for a component of another mechanism.
+    /// The rank decisions at the start, for each part of the mechanism. The verdicts at the start
+    /// are computed from these decisions. `None` for a component of another mechanism.
     pub decided: Option<Arc<Rows>>,
     /// Result of the assembly of the configuration.
     pub assembly: Assembly,
-    /// Velocities at the start minus the given ones; zero for velocities that are not given.
+    /// Velocities at the start minus the given velocities. The value is zero for velocities that
+    /// are not given.
     pub velocity_correction: Vec<f64>,
-    /// Code generated for this mechanism with these rows, if any: see
+    /// Code generated for this mechanism with these rows, if such code exists; see
     /// [`PreparedMechanism::with_code`].
     pub(crate) code: Option<Arc<SharedCode>>,
 }
 
 impl PreparedMechanism {
-    /// Estimated upper bound (bytes) on the memory of a run, without the mechanism itself: solvers,
-    /// stages, output rows. The estimate uses only sparsity patterns.
+    /// Returns an estimated upper bound (bytes) on the memory of a run, without the mechanism
+    /// itself. The memory consists of solvers, stages and output rows. The estimate uses only
+    /// sparsity patterns.
     #[must_use]
     pub fn memory(&self) -> usize {
         let levels = [&self.decision, &self.position_decision].map(|d| d.kept.as_slice());
         solve::memory(&self.mechanism, self.assembly.size, levels)
     }
 
-    /// Whether the independent rows are solved through the Schur complement of the masses.
+    /// Returns whether the independent rows are solved through the Schur complement of the masses.
     pub(crate) fn is_schur(&self) -> bool {
         let rows = self.decision.kept.len();
         solve::is_schur(&self.mechanism, self.assembly.size, rows)
     }
 
-    /// Whether the size is far from a metre, see [`solve::is_far`].
+    /// Returns whether the size is far from a metre, see [`solve::is_far`].
     pub(crate) fn is_far(&self) -> bool {
         solve::is_far(self.assembly.size)
     }
 
-    /// Ratio of the largest to the smallest mass, see [`solve::mass_spread`].
+    /// Returns the ratio of the largest to the smallest mass, see [`solve::mass_spread`].
     pub(crate) fn mass_spread(&self) -> f64 {
         solve::mass_spread(&self.mechanism, self.assembly.size)
     }
 
-    /// Another choice of redundant rows: each violated row becomes independent, and the row with
-    /// the largest coefficient in its dependency at the start becomes redundant. Returns `None` if
-    /// these rows cannot be redundant together, or for a component of another mechanism.
+    /// Returns another choice of redundant rows. Each violated row becomes independent, and the row
+    /// with the largest coefficient in its dependency at the start becomes redundant. Returns
+    /// `None` if these rows cannot be redundant together, or for a component of another mechanism.
     ///
     /// # Errors
     /// Returns an error if the equations have no solution at the start.
@@ -103,8 +106,8 @@ impl PreparedMechanism {
         Ok(Some(dropped))
     }
 
-    /// The same mechanism with these redundant rows. Returns `None` if they cannot be redundant
-    /// together, or for a component of another mechanism.
+    /// Returns the same mechanism with these redundant rows. Returns `None` if the rows cannot be
+    /// redundant together, or for a component of another mechanism.
     ///
     /// # Errors
     /// Returns the same errors as [`prepare`].
@@ -120,11 +123,11 @@ impl PreparedMechanism {
         }
     }
 
-    /// The same mechanism with these independent rows of C and of Φq, ascending, for example the
-    /// rows of generated code. Returns `None` if the rows are dependent at the start, if their
-    /// number differs from the rank, or if the caller chose other rows. It also returns `None` if
-    /// rows are chosen by another method: within stated tolerances, in a large mechanism, in a
-    /// component of another mechanism.
+    /// Returns the same mechanism with these independent rows of C and of Φq, ascending, for
+    /// example the rows of generated code. Returns `None` if the rows are dependent at the start,
+    /// if their number differs from the rank, or if the caller chose other rows. The function also
+    /// returns `None` if rows are chosen by another method. Rows are chosen by another method
+    /// within stated tolerances, in a large mechanism, and in a component of another mechanism.
     #[must_use]
     pub fn on_rows(&self, kept: &[usize], position_kept: &[usize]) -> Option<Self> {
         if kept == self.decision.kept && position_kept == self.position_decision.kept {
@@ -176,8 +179,8 @@ impl PreparedMechanism {
         })
     }
 
-    /// Whether a run evaluates the state as a function of time: no coordinate or velocity is free,
-    /// and states are projected.
+    /// Returns whether a run evaluates the state as a function of time. The state is evaluated as a
+    /// function of time if no coordinate or velocity is free and states are projected.
     pub(crate) fn is_function_of_time(&self, options: &MotionOptions) -> bool {
         let n_v = self.mechanism.layout().n_v;
         let is_held = self.decision.rank == n_v && self.position_decision.rank == n_v;
@@ -202,8 +205,8 @@ pub fn prepare(
     prepare_after(mechanism, start, rows, None)
 }
 
-/// Like [`prepare`], but uses the decisions for another mechanism with the same constraints at the
-/// same configuration instead of a new decision.
+/// Works like [`prepare`], but makes no new decision. The function uses the decisions for another
+/// mechanism with the same constraints at the same configuration.
 ///
 /// # Errors
 /// Returns the same errors as [`prepare`].
@@ -291,8 +294,8 @@ fn on_rows(
     })
 }
 
-/// The rows of C and of Φq that are requested to be redundant; for Φq, those of the rows that are
-/// holonomic.
+/// Returns the rows of C and of Φq that are requested to be redundant. For Φq, these are the
+/// holonomic rows among the requested rows.
 fn drop_within_tolerance(
     mechanism: &Mechanism,
     found: &Rows,
@@ -311,8 +314,9 @@ fn drop_within_tolerance(
     Ok((all, positions))
 }
 
-/// The reason why no motion can start at a configuration, if there is one. Either the rank is
-/// undecided, or rows that are certified to be independent are too ill-conditioned for `f64`.
+/// Returns the reason why no motion can start at a configuration, if there is such a reason. Either
+/// the rank is undecided, or rows that are certified to be independent are too ill-conditioned for
+/// `f64`.
 #[must_use]
 pub fn unmovable(mechanism: &Mechanism, found: &Rows, q: &[f64]) -> Option<MotionError> {
     if let Some(nearly) = found.inseparable(mechanism, 0.0, q) {
@@ -337,11 +341,11 @@ pub fn unmovable(mechanism: &Mechanism, found: &Rows, q: &[f64]) -> Option<Motio
         })
 }
 
-/// Velocities of an assembled start, see [`consistent_velocity`], and a contradiction between the
-/// accelerations at the start, if any. Such a contradiction exists if redundant rows allow the
-/// velocities but no motion that starts with them. Rows that contradict each other for all initial
-/// velocities, such as rows of drives, are reported before given velocities that contradict the
-/// rows.
+/// Returns the velocities of an assembled start, see [`consistent_velocity`], and a contradiction
+/// between the accelerations at the start, if there is one. Such a contradiction exists if
+/// redundant rows allow the velocities but no motion that starts with these velocities. Rows that
+/// contradict each other for all initial velocities, such as rows of drives, are reported before
+/// given velocities that contradict the rows.
 ///
 /// # Errors
 /// - [`MotionError::Start`]: the given velocities are impossible.
@@ -369,9 +373,9 @@ pub fn start_velocity(
     };
     let mut all = rows.contradictions(mechanism, 0.0, q, v)?;
     if all.is_empty() && mechanism.has_tolerances() && rows.all.redundancy > 0 {
-        // Data within the tolerance may explain the violation of a joint that a drive moves. Here,
-        // as in a check of the drives, the prescribed motion of a drive is compared with the motion
-        // that the joints allow.
+        // The violation of a joint that a drive moves may result from data within the tolerance. As
+        // in a check of the drives, the prescribed motion of a drive is therefore compared with the
+        // motion that the joints allow.
         all = contradicting_drives(mechanism, 0.0, q)?;
     }
     let is_late = |c: &Contradiction| c.level == ConstraintLevel::Acceleration;

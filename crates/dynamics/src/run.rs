@@ -1,5 +1,5 @@
-//! Runs a plan: integration of q̇ = T·v and of the solved accelerations, projection after each
-//! step, projected output rows, and the energy balance.
+//! Runs a plan. A run consists of the integration of q̇ = T·v and of the solved accelerations, the
+//! projection after each step, projected output rows, and the energy balance.
 
 use std::ops::ControlFlow;
 
@@ -37,8 +37,8 @@ pub(crate) use reduced::derivatives;
 pub use sample::{ChosenReactions, Sample};
 pub use summary::{ComponentSummary, DroppedRows, Failure, Summary};
 
-/// Runs a prepared mechanism from t = 0 and passes rows at 0, at every output step and at the end
-/// to `row`. The plan requests all output.
+/// Runs a prepared mechanism from t = 0. The function `row` is called for the rows at 0, at every
+/// output step and at the end. The plan requests all output.
 ///
 /// ```
 /// use std::ops::ControlFlow;
@@ -65,7 +65,7 @@ pub use summary::{ComponentSummary, DroppedRows, Failure, Summary};
 /// ```
 ///
 /// # Errors
-/// A failure contains the summary of the completed part; rows passed before remain valid.
+/// Returns a failure with the summary of the completed part. Rows passed before remain valid.
 pub fn simulate(
     prepared: &PreparedMechanism,
     options: &MotionOptions,
@@ -74,8 +74,8 @@ pub fn simulate(
     simulate_until(prepared, options, &|| false, row)
 }
 
-/// Like [`simulate`], but `stop` is called at each evaluation. When `stop` returns true, the run
-/// ends at the last accepted step.
+/// Works like [`simulate`], but `stop` is called at each evaluation. When `stop` returns true, the
+/// run ends at the last accepted step.
 ///
 /// # Errors
 /// Returns the same errors as [`simulate`].
@@ -94,7 +94,7 @@ impl Plan<'_> {
     /// Runs the plan from t = 0 and passes its rows to `row`.
     ///
     /// # Errors
-    /// A failure contains the summary of the completed part; rows passed before remain valid.
+    /// Returns a failure with the summary of the completed part. Rows passed before remain valid.
     pub fn simulate(
         &self,
         row: impl FnMut(&mut Sample<'_, '_>) -> Result<ControlFlow<()>, MotionFault>,
@@ -102,9 +102,9 @@ impl Plan<'_> {
         self.simulate_watched(&|_| ControlFlow::Continue(()), &|| false, row)
     }
 
-    /// Like [`Plan::simulate`], with two more functions. `watch` is called at each accepted step,
-    /// also between rows. `stop` is called at each evaluation; when it returns true, the run ends
-    /// at the last accepted step.
+    /// Works like [`Plan::simulate`], with two more functions. `watch` is called at each accepted
+    /// step, also between rows. `stop` is called at each evaluation. When `stop` returns true, the
+    /// run ends at the last accepted step.
     ///
     /// # Errors
     /// Returns the same errors as [`Plan::simulate`].
@@ -117,9 +117,9 @@ impl Plan<'_> {
         self.go((watch, stop), None, &mut row)
     }
 
-    /// Like [`Plan::simulate_watched`], but `evaluator` evaluates the code of the mechanism and
-    /// must return the results of this code. This function is for callers that evaluate several
-    /// runs at the same time. A plan without code runs as usual.
+    /// Works like [`Plan::simulate_watched`], but `evaluator` evaluates the code of the mechanism.
+    /// The evaluator must return the results of this code. This function is for callers that
+    /// evaluate several runs at the same time. A plan without code runs as usual.
     ///
     /// # Errors
     /// Returns the same errors as [`Plan::simulate`].

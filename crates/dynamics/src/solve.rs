@@ -1,6 +1,7 @@
-//! Accelerations and multipliers at one state: with independent rows, in their null space or
-//! through the Schur complement, without or with refinement, or by generated code. The module
-//! [`crate::manifold`] moves states onto the constraint manifold; [`crate::watch`] accepts steps.
+//! Accelerations and multipliers at one state. The accelerations and multipliers are computed with
+//! independent rows in their null space or through the Schur complement, without or with
+//! refinement, or by generated code. The module [`crate::manifold`] moves states onto the
+//! constraint manifold; [`crate::watch`] accepts steps.
 
 mod equations;
 mod evaluation;
@@ -36,6 +37,6 @@ pub(crate) trait Accelerations {
     /// Computes v̇, n_v values.
     fn accelerations(&mut self, state: State<'_>, a: &mut [f64]) -> Result<(), Self::Fault>;
 
-    /// Computes λ of all rows, 0 for redundant rows.
+    /// Computes λ of all rows. λ is 0 for redundant rows.
     fn multipliers(&mut self, state: State<'_>, lambda: &mut [f64]) -> Result<(), Self::Fault>;
 }

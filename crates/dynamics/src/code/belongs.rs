@@ -108,8 +108,8 @@ pub enum CodeMismatch {
         values: [f64; 2],
     },
     /// A mass or moment of inertia that is an input is zero in the mechanism, but was not zero when
-    /// the code was generated. The order of elimination depends on whether the value is zero.
-    /// Without mass, the mass metric that defines the smallest position correction does not exist.
+    /// the code was generated. The order of elimination depends on whether the value is zero. The
+    /// mass metric defines the smallest position correction, and it does not exist without mass.
     #[error(
         "the code `{name}` was generated for a positive {input}, but it is 0 in the mechanism; generate the code again"
     )]
@@ -225,7 +225,7 @@ impl CodeInputs {
     }
 }
 
-/// States at which values are compared.
+/// The states at which values are compared.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum At {
     /// At the start.
@@ -234,7 +234,7 @@ enum At {
     ManyStates,
 }
 
-/// The code with the input values of a mechanism, if the code has inputs.
+/// Returns the code with the input values of a mechanism, if the code has inputs.
 fn for_mechanism(
     code: Arc<SharedCode>,
     mechanism: &Mechanism,
@@ -259,20 +259,20 @@ impl PreparedMechanism {
     /// values of the inputs.
     ///
     /// # Errors
-    /// [`CodeMismatch`], if the code belongs to another mechanism or to other rows.
+    /// Returns a [`CodeMismatch`] if the code belongs to another mechanism or to other rows.
     pub fn with_code(self, code: Arc<SharedCode>) -> Result<Self, CodeMismatch> {
         self.with_code_compared(code, At::ManyStates)
     }
 
-    /// The same mechanism without generated code.
+    /// Returns the same mechanism without generated code.
     #[must_use]
     pub fn without_code(self) -> Self {
         Self { code: None, ..self }
     }
 
-    /// Like [`PreparedMechanism::with_code`] for code that has already passed this check with a
-    /// mechanism of the same constraints ([`Mechanism::has_constraints_of`]). Values are compared
-    /// only at the start.
+    /// Works like [`PreparedMechanism::with_code`], for code that has already passed this check
+    /// with a mechanism of the same constraints ([`Mechanism::has_constraints_of`]). Values are
+    /// compared only at the start.
     ///
     /// # Errors
     /// Returns the same errors as [`PreparedMechanism::with_code`].
@@ -295,7 +295,7 @@ impl PreparedMechanism {
         })
     }
 
-    /// The code that a run with these options uses, or the reason why the run uses no code.
+    /// Returns the code that a run with these options uses, or the reason why the run uses no code.
     ///
     /// # Errors
     /// [`NoCode`]
@@ -402,7 +402,7 @@ impl Comparison<'_> {
     }
 }
 
-/// The start, and times between the break times.
+/// Returns the start, and times between the break times.
 fn times(mechanism: &Mechanism) -> Vec<f64> {
     let breaks = &mechanism.layout().break_times;
     let first = std::iter::once(0.0).chain(breaks.iter().copied().filter(|t| *t > 0.0));
@@ -431,7 +431,7 @@ fn check_values(
     }
     let times = times(&prepared.mechanism);
     for k in 0..CODE_STATES.max(times.len()) {
-        // Values that are not related to any symmetry of a mechanism.
+        // The values are not related to any symmetry of a mechanism.
         let shift = |i: usize| (1.7 * (i + 1) as f64 + 2.9 * (k + 1) as f64).sin();
         let away = |by: f64| -> Vec<f64> {
             let unit = |j: usize| prepared.mechanism.space().unit(j, prepared.assembly.size);
@@ -450,7 +450,8 @@ fn check_values(
 }
 
 /// Compares Φ, C·v − b, accelerations and multipliers of the code and of the interpreter.
-/// Accelerations and multipliers are compared only if the pivots of both are large enough.
+/// Accelerations and multipliers are compared only if the pivots of the code and of the interpreter
+/// are large enough.
 fn compare(
     motion: &mut KeptRowMotion<'_>,
     code: &dyn SceneCode,

@@ -2,17 +2,17 @@
 //! mechanism can be used for every other mechanism that differs only in the values of these
 //! parameters.
 //!
-//! A parameter is identified by its position in the recorded equations, not by its value, so two
-//! parameters with equal values are not confused. Parameters that were equal in all mechanisms from
-//! which the code was generated share one input. A mechanism in which such parameters differ is
-//! rejected.
+//! A parameter is identified by its position in the recorded equations, not by its value. Therefore
+//! two parameters with equal values are not confused. Parameters that were equal in all mechanisms
+//! from which the code was generated share one input. A mechanism in which such parameters differ
+//! is rejected.
 
 use std::borrow::Cow;
 
 /// The inputs of generated code in addition to time, coordinates and velocities.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CodeInputs {
-    /// [`model::RecordedEquations::shape`] of the mechanism for which the code was generated.
+    /// The [`model::RecordedEquations::shape`] of the mechanism for which the code was generated.
     pub shape: u64,
     /// The inputs, in the order of their values.
     pub list: Cow<'static, [CodeInput]>,
@@ -25,6 +25,6 @@ pub struct CodeInput {
     pub name: Cow<'static, str>,
     /// Value in the mechanism for which the code was generated.
     pub described: f64,
-    /// Positions of the parameter in the recorded equations, at least one.
+    /// Positions of the parameter in the recorded equations. There is at least one position.
     pub places: Cow<'static, [usize]>,
 }

@@ -1,7 +1,7 @@
 //! Forces along the free motions at one configuration, and multipliers of the constraints.
 //!
 //! All forces are in units of energy. Translations are divided by the size of the mechanism, and
-//! forces are multiplied by it; rotations (rad) and torques are unchanged.
+//! forces are multiplied by this size. Rotations (rad) and torques are unchanged.
 
 use linalg::{Matrix, RowBasis};
 use model::start::{Metric, nearest_configuration};
@@ -68,7 +68,7 @@ impl<'m> Statics<'m> {
         self.mechanism.force(s);
     }
 
-    /// Rejects rows that prescribe a velocity.
+    /// Returns an error for rows that prescribe a velocity.
     pub(super) fn check_rest(&mut self, q: &[f64]) -> Result<(), EquilibriumError> {
         self.evaluate(q);
         self.mechanism.b(&mut self.s);
@@ -90,7 +90,7 @@ impl<'m> Statics<'m> {
         Ok(())
     }
 
-    /// The forces at a configuration.
+    /// Returns the forces at a configuration.
     pub(super) fn balance(&mut self, q: Vec<f64>) -> Result<Balance, EquilibriumError> {
         self.evaluate(&q);
         let (mechanism, n) = (self.mechanism, self.units.len());
@@ -146,7 +146,7 @@ impl<'m> Statics<'m> {
         })
     }
 
-    /// The largest entry of the weight or of an applied force, at the last evaluated pose.
+    /// Returns the largest entry of the weight or of an applied force at the last evaluated pose.
     fn largest_part(&mut self) -> f64 {
         let largest = |q: &[f64]| {
             let shares = q.iter().zip(&self.units).map(|(f, u)| (f * u).abs());
@@ -157,7 +157,7 @@ impl<'m> Statics<'m> {
         parts.max(largest(self.mechanism.weight()))
     }
 
-    /// The dimensionless displacement of all bodies for a step along the free motions.
+    /// Returns the dimensionless displacement of all bodies for a step along the free motions.
     pub(super) fn moved(&self, at: &Balance, y: &[f64]) -> Vec<f64> {
         at.z.times(y)
     }
@@ -167,13 +167,15 @@ impl<'m> Statics<'m> {
         at.z.times(&at.free)
     }
 
-    /// Velocities of all bodies for the velocities y along the free motions (m/s, rad/s).
+    /// Returns the velocities of all bodies for the velocities y along the free motions (m/s,
+    /// rad/s).
     pub(super) fn velocity(&self, at: &Balance, y: &[f64]) -> Vec<f64> {
         let moved = self.moved(at, y);
         moved.iter().zip(&self.units).map(|(x, u)| x * u).collect()
     }
 
-    /// The configuration on the constraint manifold that is closest to a displaced one.
+    /// Returns the configuration on the constraint manifold that is closest to a displaced
+    /// configuration.
     pub(super) fn placed(&self, at: &Balance, moved: &[f64]) -> Result<Vec<f64>, EquilibriumError> {
         let step: Vec<f64> = moved.iter().zip(&self.units).map(|(x, u)| x * u).collect();
         let q = self.mechanism.space().displaced(&at.q, 1.0, &step);

@@ -10,11 +10,12 @@ use model::{CalledForce, StartError};
 pub struct UnbalancedForce {
     /// Description of the motion.
     pub motion: String,
-    /// Force or torque along the motion: its power divided by the speed of the fastest body.
+    /// Force or torque along the motion. The value is the power of the loads divided by the speed
+    /// of the fastest body.
     pub force: f64,
-    /// N or N·m.
+    /// Unit of the force: N or N·m.
     pub unit: &'static str,
-    /// Descriptions of the loads that act: the weight and applied forces.
+    /// Descriptions of the acting loads, which are the weight and applied forces.
     pub by: Vec<String>,
 }
 
@@ -79,7 +80,7 @@ pub enum EquilibriumError {
         /// The body.
         body: String,
     },
-    /// A force calls an external function, which gives values but no derivatives.
+    /// A force calls an external function, which returns values but no derivatives.
     #[error(
         "the search for an equilibrium needs derivatives of all forces, but {0}; give the drive a law of `measure`, `rate` and `t`, or simulate with dampers until the motion stops"
     )]
@@ -102,7 +103,7 @@ pub(super) fn push(pushed: &[UnbalancedForce]) -> String {
 }
 
 impl EquilibriumError {
-    /// Error code; see [`model::codes`].
+    /// Returns the error code; see [`model::codes`].
     #[must_use]
     pub fn code(&self) -> Code {
         match self {
@@ -117,7 +118,8 @@ impl EquilibriumError {
         }
     }
 
-    /// Whether the scene has no equilibrium as it is given, so that the scene must be changed.
+    /// Returns whether the scene has no equilibrium as described. In this case, the scene must be
+    /// changed.
     #[must_use]
     pub fn is_input(&self) -> bool {
         matches!(

@@ -2,9 +2,10 @@
 //! every configuration.
 //!
 //! A common translation of all bodies of a set along a straight line does not change the joints and
-//! forces between them. It does not change joints and forces that depend on angles, either. If, in
-//! addition, only the weight and constant forces act on the set, their sum acts at every pose. A
-//! set of bodies with such a force has no equilibrium.
+//! forces between these bodies. Such a translation does not change joints and forces that depend on
+//! angles, either. Suppose that, in addition, only the weight and constant forces act on the set.
+//! The sum of these forces then acts at every pose. A set of bodies with such a force has no
+//! equilibrium.
 
 use linalg::DisjointSets;
 use linalg::kernels::norm;
@@ -24,7 +25,7 @@ const ELSEWHERE: [[f64; 6]; 2] = [
     [-2.1, 1.9, -3.2, -1.1, 0.9, 1.7],
 ];
 
-/// Sets of bodies that fall at every configuration, one entry for each set.
+/// Returns the sets of bodies that fall at every configuration, with one entry for each set.
 pub(super) fn falls(statics: &mut Statics<'_>, q: &[f64]) -> Vec<UnbalancedForce> {
     let n = statics.bodies();
     let mechanism = statics.mechanism;
@@ -108,7 +109,7 @@ fn slides(mechanism: &Mechanism, bodies: &[usize], along: &[f64]) -> String {
         [first, second] => format!("{first} and {second}"),
         names => listed(names),
     };
-    // Four digits; −0 is printed as 0.
+    // The numbers have four digits, and −0 is printed as 0.
     let shown = along.iter().map(|x| (x * 1e4).round() / 1e4 + 0.0);
     let shown = shown.map(|x| x.to_string().replace('-', "−"));
     format!(
@@ -117,8 +118,8 @@ fn slides(mechanism: &Mechanism, bodies: &[usize], along: &[f64]) -> String {
     )
 }
 
-/// Contribution of each applied force on one body to Q, if the force is constant at other poses;
-/// `None` for other forces.
+/// Returns the contribution of each applied force on one body to Q if the force is constant at
+/// other poses. The value is `None` for other forces.
 fn dead_loads(statics: &mut Statics<'_>, q: &[f64]) -> Vec<Option<Vec<f64>>> {
     let mechanism = statics.mechanism;
     let (space, size) = (mechanism.space(), statics.size);
@@ -158,7 +159,7 @@ fn dead_loads(statics: &mut Statics<'_>, q: &[f64]) -> Vec<Option<Vec<f64>>> {
             norm(&change)
         };
         let bound = DEAD_LOAD * norm(part);
-        // A force that is zero at a few poses may be nonzero at others.
+        // A force that is zero at a few poses may be nonzero at other poses.
         bound > 0.0 && elsewhere.iter().all(|other| changed(other) <= bound)
     };
     let kept: Vec<bool> = (0..here.len()).map(|k| on_one[k] && is_dead(k)).collect();

@@ -1,5 +1,5 @@
-//! Stiffness along free motions, `K = −Zᵀ·∂(Q − Cᵀ·λ)/∂q·Z` with constant multipliers λ, and the
-//! steps that follow from it.
+//! Stiffness along free motions, `K = −Zᵀ·∂(Q − Cᵀ·λ)/∂q·Z` with constant multipliers λ, and steps
+//! that are computed from the stiffness.
 
 use linalg::kernels::norm;
 use linalg::{Matrix, SymmetricEigen, small_svd, symmetric_eigen};
@@ -17,7 +17,7 @@ pub(super) struct Stiffness {
     eigen: SymmetricEigen,
     /// Largest entry of the stiffness.
     pub(super) largest: f64,
-    /// Values below this are rounding errors.
+    /// Values below this value are rounding errors.
     nothing: f64,
     /// Whether the stiffness is symmetric.
     pub(super) has_potential: bool,
@@ -33,7 +33,7 @@ pub(super) enum Way {
 }
 
 impl Statics<'_> {
-    /// The stiffness at a configuration.
+    /// Returns the stiffness at a configuration.
     pub(super) fn stiffness(&mut self, at: &Balance) -> Result<Stiffness, EquilibriumError> {
         let d = at.free.len();
         let mut k = Matrix::zeros(d, d);
@@ -83,7 +83,7 @@ impl Statics<'_> {
         })
     }
 
-    /// `Q − Cᵀ·λ` at a configuration with the multipliers of another one.
+    /// Returns `Q − Cᵀ·λ` at a configuration with the multipliers of another configuration.
     fn unbalanced(&mut self, q: &[f64], at: &Balance) -> Vec<f64> {
         self.evaluate(q);
         let mut force = self.s.force.clone();
@@ -98,7 +98,7 @@ impl Statics<'_> {
     }
 }
 
-/// A unit vector.
+/// Returns a unit vector.
 fn unit(n: usize, k: usize) -> Vec<f64> {
     let mut unit = vec![0.0; n];
     unit[k] = 1.0;
@@ -111,14 +111,14 @@ impl Stiffness {
         (0..vectors.nrows()).map(|k| vectors[(k, i)]).collect()
     }
 
-    /// Unstable motions, the strongest first.
+    /// Returns the unstable motions, the most unstable motion first.
     pub(super) fn falling(&self) -> Vec<Vec<f64>> {
         let values = self.eigen.values.iter().enumerate().rev();
         let falling = values.filter(|(_, value)| **value < -self.nothing);
         falling.map(|(i, _)| self.vector(i)).collect()
     }
 
-    /// Motions along which the forces are constant.
+    /// Returns the motions along which the forces are constant.
     pub(super) fn idle(&self) -> Vec<Vec<f64>> {
         if self.has_potential {
             let values = self.eigen.values.iter().enumerate();
@@ -132,8 +132,8 @@ impl Stiffness {
         idle.map(|(i, _)| column(i)).collect()
     }
 
-    /// A step along the forces `free`, at most as long as `radius`; forces of at most `rounding`
-    /// count as zero.
+    /// Returns a step along the forces `free`. The step is at most as long as `radius`. Forces of
+    /// at most `rounding` count as zero.
     pub(super) fn step(&self, free: &[f64], radius: f64, rounding: f64) -> (Vec<f64>, Way) {
         let newton = if self.has_potential {
             self.newton(free, rounding)
@@ -157,8 +157,9 @@ impl Stiffness {
         (self.shifted(free, high, rounding), Way::Short)
     }
 
-    /// `K⁻¹·f` without the components along idle motions, for a K without negative eigenvalues.
-    /// Returns `None` if forces act along idle motions, or if they point away from the equilibrium.
+    /// Returns `K⁻¹·f` without the components along idle motions, for a K without negative
+    /// eigenvalues. Returns `None` if forces act along idle motions, or if they point away from the
+    /// equilibrium.
     fn newton(&self, free: &[f64], rounding: f64) -> Option<Vec<f64>> {
         let mut y = vec![0.0; free.len()];
         for (i, &value) in self.eigen.values.iter().enumerate() {
@@ -178,7 +179,8 @@ impl Stiffness {
         Some(y)
     }
 
-    /// `K⁻¹·f` without the components along idle motions. Returns `None` if forces act along them.
+    /// Returns `K⁻¹·f` without the components along idle motions, or `None` if forces act along
+    /// idle motions.
     fn inverse(&self, free: &[f64], rounding: f64) -> Option<Vec<f64>> {
         let svd = small_svd(&self.k);
         let mut y = vec![0.0; free.len()];
@@ -195,7 +197,7 @@ impl Stiffness {
         Some(y)
     }
 
-    /// `(K + μ·I)⁻¹·f` with the symmetric part of K.
+    /// Returns `(K + μ·I)⁻¹·f` with the symmetric part of K.
     fn shifted(&self, free: &[f64], mu: f64, rounding: f64) -> Vec<f64> {
         let mut y = vec![0.0; free.len()];
         for (i, value) in self.eigen.values.iter().enumerate() {

@@ -6,7 +6,7 @@ use super::UnbalancedForce;
 use super::balance::{Balance, Statics};
 use crate::limits::{MOSTLY_TURNS, TAKES_PART, UNRESISTED};
 
-/// Descriptions of free motions, each given by d components.
+/// Returns descriptions of free motions, each of which is given by d components.
 pub(super) fn motions(statics: &Statics<'_>, at: &Balance, of: &[Vec<f64>]) -> Vec<String> {
     let velocities: Vec<Vec<f64>> = of.iter().map(|y| statics.velocity(at, y)).collect();
     let told = motions_among(statics.mechanism, statics.t, &at.q, &velocities);
@@ -14,7 +14,7 @@ pub(super) fn motions(statics: &Statics<'_>, at: &Balance, of: &[Vec<f64>]) -> V
     told.map(|motion| motion.text).collect()
 }
 
-/// The loads along a free motion, separately for each set of bodies that move.
+/// Returns the loads along a free motion, separately for each set of moving bodies.
 pub(super) fn pushed(
     statics: &mut Statics<'_>,
     at: &Balance,
@@ -50,8 +50,8 @@ pub(super) fn pushed(
     all.into_iter().filter(takes_part).collect()
 }
 
-/// Descriptions of the weight and of the applied forces at the configuration q, with their
-/// contributions to Q.
+/// Returns descriptions of the weight and of the applied forces at the configuration q, with the
+/// contributions of these forces to Q.
 pub(super) fn parts(statics: &mut Statics<'_>, q: &[f64]) -> Vec<(String, Vec<f64>)> {
     statics.evaluate(q);
     let weight = ("the weight".to_owned(), statics.mechanism.weight().to_vec());
@@ -60,7 +60,7 @@ pub(super) fn parts(statics: &mut Statics<'_>, q: &[f64]) -> Vec<(String, Vec<f6
     std::iter::once(weight).chain(forces).collect()
 }
 
-/// The loads that act on some bodies along the motion of these bodies.
+/// Returns the loads that act on some bodies along the motion of these bodies.
 pub(super) fn of_bodies(
     statics: &Statics<'_>,
     forces: &[(String, Vec<f64>)],

@@ -51,7 +51,7 @@ pub enum DropError {
 }
 
 impl DropError {
-    /// Error code; see [`model::codes`].
+    /// Returns the error code; see [`model::codes`].
     #[must_use]
     pub fn code(&self) -> Code {
         match self {

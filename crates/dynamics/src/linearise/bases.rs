@@ -10,7 +10,7 @@ use super::error::LineariseError;
 
 /// Displacements and velocities that change one independent coordinate each.
 pub(crate) struct Bases {
-    /// The displacements: one row of n_v values for each position.
+    /// The displacements, with one row of n_v values for each position.
     pub(crate) shifts: Matrix,
     positions: DampedRows,
     velocities: DampedRows,
@@ -55,30 +55,31 @@ impl Bases {
         })
     }
 
-    /// The displacement that changes independent position k by one unit.
+    /// Returns the displacement that changes independent position k by one unit.
     pub(crate) fn shift(&self, k: usize) -> Vec<f64> {
         self.shifts.row(k).to_vec()
     }
 
-    /// The velocities of all bodies that change independent velocity k by one unit.
+    /// Returns the velocities of all bodies that change independent velocity k by one unit.
     pub(crate) fn velocity(&self, k: usize) -> Result<Vec<f64>, LineariseError> {
         let [_, r] = self.kept;
         unit_step(&self.velocities, r + self.free[1], r + k)
     }
 
-    /// The displacement that changes the independent row `k` of Φ by one, and no independent
-    /// position.
+    /// Returns the displacement that changes the independent row `k` of Φ by one, and no
+    /// independent position.
     pub(crate) fn shift_of_row(&self, k: usize) -> Result<Vec<f64>, LineariseError> {
         unit_step(&self.positions, self.kept[0] + self.free[0], k)
     }
 
-    /// The velocity that changes the independent row `k` of C·v by one, and no independent
+    /// Returns the velocity that changes the independent row `k` of C·v by one, and no independent
     /// velocity.
     pub(crate) fn velocity_of_row(&self, k: usize) -> Result<Vec<f64>, LineariseError> {
         unit_step(&self.velocities, self.kept[1] + self.free[1], k)
     }
 
-    /// The change of velocities along a displacement if the independent velocities are constant.
+    /// Returns the change of velocities along a displacement if the independent velocities are
+    /// constant.
     pub(crate) fn velocity_kept_by(
         &self,
         curves: &Curves<'_>,
@@ -90,7 +91,7 @@ impl Bases {
     }
 }
 
-/// The step that changes row k of `of` by one and no other row.
+/// Returns the step that changes row k of `of` by one and no other row.
 fn unit_step(of: &DampedRows, rows: usize, k: usize) -> Result<Vec<f64>, LineariseError> {
     let mut residual = vec![0.0; rows];
     residual[k] = -1.0;

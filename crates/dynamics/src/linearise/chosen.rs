@@ -17,8 +17,8 @@ pub(crate) struct CoordinateChoice {
 
 impl CoordinateChoice {
     /// Chooses velocities first, and then positions whose rates are these velocities. Cyclic and
-    /// requested coordinates are chosen first, then rotations, and then translations. Of several
-    /// candidates, the first one with a large free share is chosen.
+    /// requested coordinates are chosen first, then rotations, and then translations. Among several
+    /// candidates, the first candidate with a large free share is chosen.
     pub(crate) fn new(
         curves: &Curves<'_>,
         followed: &FollowedCoordinates,
@@ -48,12 +48,12 @@ impl CoordinateChoice {
         })
     }
 
-    /// Number of states.
+    /// Returns the number of states.
     pub(crate) fn len(&self) -> usize {
         self.positions.len() + self.velocities.len()
     }
 
-    /// Rates of all states for the derivatives along a curve, in rotating axes.
+    /// Returns the rates of all states for the derivatives along a curve, in rotating axes.
     pub(crate) fn rates<'a>(
         &'a self,
         d: &'a Derivative,
@@ -86,8 +86,8 @@ impl CoordinateChoice {
 /// Motions of all frames that the rows allow.
 struct FreeMotions<'c, 'm> {
     curves: &'c Curves<'m>,
-    /// Dimensionless motions of the frames: a row for each direction, a column for each free
-    /// motion.
+    /// Dimensionless motions of the frames, with one row for each direction and one column for each
+    /// free motion.
     rows: Matrix,
     /// Orthonormal directions that were already chosen.
     taken: Vec<Vec<f64>>,
@@ -128,10 +128,10 @@ impl<'c, 'm> FreeMotions<'c, 'm> {
         }
     }
 
-    /// The part of a row that the directions already chosen do not determine.
+    /// Returns the part of a row that the directions already chosen do not determine.
     fn left(&self, row: usize) -> Vec<f64> {
         let mut left = self.rows.row(row).to_vec();
-        // The second pass removes the rounding error of the first one.
+        // The second pass removes the rounding error of the first pass.
         for taken in self.taken.iter().chain(&self.taken) {
             let share: f64 = left.iter().zip(taken).map(|(a, b)| a * b).sum();
             left.iter_mut()

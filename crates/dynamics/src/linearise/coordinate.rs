@@ -13,7 +13,7 @@ pub(crate) const BODY: usize = 6;
 #[non_exhaustive]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Coordinate {
-    /// `body.x`, or `body.vx`.
+    /// Name of the coordinate: `body.x`, or `body.vx`.
     pub name: String,
     /// Unit of the coordinate.
     pub unit: &'static str,
@@ -24,13 +24,13 @@ pub struct Coordinate {
 }
 
 impl Coordinate {
-    /// Row in the matrix of all frames.
+    /// Returns the row in the matrix of all frames.
     pub(crate) fn row(&self) -> usize {
         frame_row(self.body, self.direction)
     }
 }
 
-/// Names of the directions of a frame; in the plane only three of them exist.
+/// Returns the names of the directions of a frame. In the plane only three of them exist.
 fn names(space: SpaceKind) -> [[&'static str; 2]; BODY] {
     match space {
         SpaceKind::Space3 => [
@@ -52,7 +52,7 @@ fn names(space: SpaceKind) -> [[&'static str; 2]; BODY] {
     }
 }
 
-/// The coordinate for a direction of a body, as a position or as a velocity.
+/// Returns the coordinate for a direction of a body, as a position or as a velocity.
 pub(crate) fn coordinate(
     mechanism: &Mechanism,
     body: usize,
@@ -74,7 +74,7 @@ pub(crate) fn coordinate(
     }
 }
 
-/// The coordinate with a given name, either of the position or of the velocity.
+/// Returns the coordinate with a given name, either of the position or of the velocity.
 pub(crate) fn named(
     mechanism: &Mechanism,
     name: &str,
@@ -110,8 +110,8 @@ pub(crate) fn named(
     ))
 }
 
-/// Row of a direction of a body in the matrix of all frames: three translations, then three
-/// rotations.
+/// Returns the row of a direction of a body in the matrix of all frames. The first three directions
+/// are translations, and the other three are rotations.
 pub(crate) fn frame_row(body: usize, direction: usize) -> usize {
     BODY * body + direction
 }

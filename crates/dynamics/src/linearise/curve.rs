@@ -15,12 +15,13 @@ use crate::motion::KeptRowMotion;
 use crate::prepare::PreparedMechanism;
 
 /// Weights of the even part of a function, `(f(h) + f(−h))/2 − f(0)`, at the same distances. In the
-/// weighted sum, terms of second, fourth and sixth order cancel, and the sum is 1 for `|x|`. Thus
-/// it detects corners. Central differences do not detect them, because a corner is even.
+/// weighted sum, terms of second, fourth and sixth order cancel, and the sum is 1 for `|x|`.
+/// Therefore the sum detects corners. Central differences do not detect corners, because a corner
+/// is even.
 const CORNER: [f64; 4] = [14.0 / 5.0, -7.0 / 5.0, 2.0 / 5.0, -1.0 / 20.0];
 
 /// Derivatives of the velocities and accelerations of all frames in ground axes, and the
-/// corresponding displacement; `BODY` values for each body.
+/// corresponding displacement. Each list has `BODY` values for each body.
 #[derive(Clone, Debug)]
 pub(crate) struct Derivative {
     pub(crate) shift: Vec<f64>,
@@ -28,7 +29,7 @@ pub(crate) struct Derivative {
     pub(crate) acceleration: Vec<f64>,
 }
 
-/// A motion at one state, and curves through it.
+/// A motion at one state, and curves through this state.
 pub(crate) struct Curves<'m> {
     motion: KeptRowMotion<'m>,
     prepared: &'m PreparedMechanism,
@@ -36,8 +37,8 @@ pub(crate) struct Curves<'m> {
     q: Vec<f64>,
     v: Vec<f64>,
     a: Vec<f64>,
-    /// Matrix from velocities of the motion to velocities of all frames: `BODY` rows for each body,
-    /// n_v columns.
+    /// Matrix from velocities of the motion to velocities of all frames. The matrix has `BODY` rows
+    /// for each body, and n_v columns.
     pub(crate) frames: Matrix,
     /// C at the state, all rows.
     c: Matrix,
@@ -47,7 +48,7 @@ pub(crate) struct Curves<'m> {
     /// mechanism (1/s²).
     applied: f64,
     /// The largest derivative of an acceleration, and the largest error estimate of such a
-    /// derivative, both dimensionless.
+    /// derivative. Both are dimensionless.
     largest: f64,
     doubt: f64,
 }
@@ -120,7 +121,7 @@ impl<'m> Curves<'m> {
         (self.t, &self.q, &self.v)
     }
 
-    /// Independent rows of Φ and of C.
+    /// Returns the independent rows of Φ and of C.
     pub(crate) fn kept(&self) -> [&'m [usize]; 2] {
         let PreparedMechanism {
             position_decision,
@@ -130,18 +131,18 @@ impl<'m> Curves<'m> {
         [&position_decision.kept, &decision.kept]
     }
 
-    /// Rows of C at the state.
+    /// Returns rows of C at the state.
     pub(crate) fn rows(&self, rows: &[usize]) -> Matrix {
         self.c.select_rows(rows)
     }
 
-    /// Squares of the units of the velocities.
+    /// Returns the squares of the units of the velocities.
     pub(crate) fn squared_units(&self) -> Vec<f64> {
         let unit = |j| self.mechanism().space().unit(j, self.size());
         (0..self.v.len()).map(|j| unit(j) * unit(j)).collect()
     }
 
-    /// Size of the mechanism (m).
+    /// Returns the size of the mechanism (m).
     pub(crate) fn size(&self) -> f64 {
         self.prepared.assembly.size
     }
@@ -150,14 +151,14 @@ impl<'m> Curves<'m> {
         self.v.iter().all(|v| *v == 0.0)
     }
 
-    /// Angular velocity of a body at the state.
+    /// Returns the angular velocity of a body at the state.
     pub(crate) fn omega(&self, body: usize) -> [f64; 3] {
         let frames = self.mechanism().frames();
         frames.body(body, &self.q, &self.v).omega
     }
 
-    /// The largest difference between the derivatives of the two orders, as a share of the largest
-    /// derivative.
+    /// Returns the largest difference between the derivatives of the two orders, as a share of the
+    /// largest derivative.
     pub(crate) fn accuracy(&self) -> f64 {
         if self.largest > 0.0 {
             self.doubt / self.largest
@@ -166,8 +167,8 @@ impl<'m> Curves<'m> {
         }
     }
 
-    /// Derivatives along the curve that leaves the state with the displacement `shift` and the
-    /// velocity change `dv`, n_v each.
+    /// Returns the derivatives along the curve that leaves the state with the displacement `shift`
+    /// and the velocity change `dv`, n_v values each.
     pub(crate) fn along(
         &mut self,
         shift: &[f64],
@@ -201,8 +202,8 @@ impl<'m> Curves<'m> {
         })
     }
 
-    /// Differences of order eight of velocities and accelerations along a curve, if they are
-    /// accurate derivatives.
+    /// Returns differences of order eight of velocities and accelerations along a curve, if the
+    /// differences are accurate derivatives.
     fn differences(
         &mut self,
         shift: &[f64],
@@ -232,7 +233,7 @@ impl<'m> Curves<'m> {
         Ok(high)
     }
 
-    /// The loads of force functions at the state.
+    /// Returns the loads of force functions at the state.
     pub(crate) fn pushes(&self) -> Vec<Push<'m>> {
         let mechanism = self.mechanism();
         let mut s = mechanism.scratch();
@@ -241,8 +242,8 @@ impl<'m> Curves<'m> {
         mechanism.applied_forces().pushes(&mut s)
     }
 
-    /// The change of accelerations by forces Q, n_v, and right-hand sides Γ of the independent
-    /// rows.
+    /// Returns the change of accelerations due to forces Q (n_v values) and right-hand sides Γ of
+    /// the independent rows.
     pub(crate) fn pushed(&self, q: &[f64], gamma: &[f64]) -> Result<Derivative, LineariseError> {
         let [_, kept] = self.kept();
         let n = self.v.len();
@@ -260,8 +261,8 @@ impl<'m> Curves<'m> {
         })
     }
 
-    /// The derivatives of the independent rows of `C·v − b`, and of the given frame velocities,
-    /// along a displacement with constant v.
+    /// Returns the derivatives of the independent rows of `C·v − b`, and of the given frame
+    /// velocities, along a displacement with constant v.
     pub(crate) fn missed_velocities(&self, shift: &[f64], free: &[Coordinate]) -> Vec<f64> {
         let [_, kept] = self.kept();
         let still = vec![0.0; shift.len()];
@@ -293,8 +294,8 @@ impl<'m> Curves<'m> {
         missed
     }
 
-    /// The curve parameter that moves the mechanism by one step length; `None` if the curve changes
-    /// nothing.
+    /// Returns the curve parameter that moves the mechanism by one step length, or `None` if the
+    /// curve does not change any value.
     fn step(&self, shift: &[f64], dv: &[f64]) -> Option<f64> {
         let space = self.mechanism().space();
         let largest = |x: &[f64]| {
@@ -308,7 +309,7 @@ impl<'m> Curves<'m> {
         (way > 0.0).then_some(LINEARISE_STEP / way)
     }
 
-    /// Velocities and accelerations of all frames at a distance along a curve.
+    /// Returns velocities and accelerations of all frames at a distance along a curve.
     fn rates_at(&mut self, d: f64, shift: &[f64], dv: &[f64]) -> Result<Vec<f64>, LineariseError> {
         let mechanism = self.mechanism();
         let q = mechanism.space().displaced(&self.q, d, shift);
@@ -336,8 +337,8 @@ impl<'m> Curves<'m> {
         let Some(step) = self.step(shift, dv) else {
             return Ok(());
         };
-        // Derivatives become dimensionless: for a displacement by the size of the mechanism, or by
-        // one radian.
+        // Derivatives are made dimensionless. The derivatives belong to a displacement by the size
+        // of the mechanism, or by one radian.
         let way = LINEARISE_STEP / step;
         let accelerations = high.len() / 2..high.len();
         let (mut largest, mut doubt) = (self.largest, self.doubt);
@@ -373,7 +374,8 @@ impl<'m> Curves<'m> {
     }
 
     /// Checks that the state is an equilibrium, or is steady in rotating axes. Accelerations must
-    /// result only from the rotation of the axes, and this must remain true along the motion.
+    /// result only from the rotation of the axes. This condition must also be satisfied along the
+    /// motion.
     pub(crate) fn check_steady(&mut self, turning: [f64; 3]) -> Result<(), LineariseError> {
         let mechanism = self.mechanism();
         let (q, v, a) = (self.q.clone(), self.v.clone(), self.a.clone());
@@ -398,7 +400,7 @@ impl<'m> Curves<'m> {
         Ok(())
     }
 
-    /// Description of the bodies that fall freely at the state, if there are any.
+    /// Returns a description of the bodies that fall freely at the state, if there are any.
     fn falls(&self) -> Option<String> {
         crate::equilibrium::falling(self.prepared, self.t, &self.q)
     }
@@ -440,8 +442,8 @@ impl<'m> Curves<'m> {
     }
 }
 
-/// Velocity and acceleration of the frame of a body in ground axes: three translations and three
-/// rotations each.
+/// Returns the velocity and acceleration of the frame of a body in ground axes. Each consists of
+/// three translations and three rotations.
 fn frame_rates(
     mechanism: &Mechanism,
     body: usize,

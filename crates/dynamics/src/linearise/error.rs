@@ -19,14 +19,14 @@ pub enum LineariseError {
         time: f64,
         /// The body.
         body: String,
-        /// Acceleration of the body, or the rate of the acceleration.
+        /// Acceleration of the body, or the rate of this acceleration.
         left: f64,
         /// Unit.
         unit: &'static str,
         /// Whether the state has a velocity.
         moves: bool,
-        /// Description of the bodies without connection to the ground that fall freely, with the
-        /// loads on them.
+        /// Description of the bodies that fall freely because they have no connection to the
+        /// ground, and of the loads on these bodies.
         falls: Option<String>,
     },
     /// The accelerations have no derivative at this state.
@@ -51,7 +51,7 @@ pub enum LineariseError {
     Dependent {
         /// The coordinate.
         name: String,
-        /// The coordinates that determine it.
+        /// The coordinates that determine this coordinate.
         others: String,
     },
     /// The motion depends on a cyclic coordinate.
@@ -75,7 +75,7 @@ pub enum LineariseError {
     Fault(#[from] MotionFault),
 }
 
-/// Advice for a state that is not steady.
+/// Returns advice for a state that is not steady.
 fn advice(moves: bool, falls: Option<&str>) -> String {
     match falls {
         Some(falls) => format!(
@@ -94,7 +94,7 @@ fn advice(moves: bool, falls: Option<&str>) -> String {
 }
 
 impl LineariseError {
-    /// Error code; see [`model::codes`].
+    /// Returns the error code; see [`model::codes`].
     #[must_use]
     pub fn code(&self) -> Code {
         match self {
@@ -107,7 +107,7 @@ impl LineariseError {
         }
     }
 
-    /// Whether a linearisation may be possible with other input.
+    /// Returns whether a linearisation may be possible with other input.
     #[must_use]
     pub fn is_input(&self) -> bool {
         match self {

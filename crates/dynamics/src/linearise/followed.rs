@@ -1,4 +1,5 @@
-//! Cyclic coordinates of a steady motion: the motion does not depend on their values.
+//! Cyclic coordinates of a steady motion. The motion does not depend on the values of these
+//! coordinates.
 
 use model::Mechanism;
 

@@ -13,15 +13,15 @@ use super::error::LineariseError;
 pub struct Input {
     /// Name of the drive or of the force.
     pub name: String,
-    /// The quantity that changes. For the row of a drive it is `value`, `rate` or `acceleration` (m
-    /// or rad, and per second). For a force it is the name of a function, with its axis if there
-    /// are several.
+    /// The quantity that changes. For the row of a drive the quantity is `value`, `rate` or
+    /// `acceleration` (m or rad, and per second). For a force it is the name of a function, with
+    /// its axis if the function has several axes.
     pub what: String,
 }
 
-/// The inputs of all forces and of all drives with independent rows, and the derivatives with
-/// respect to these inputs. A drive that other rows imply has no input, because it prescribes no
-/// motion by itself.
+/// Returns the inputs of all forces and of all drives with independent rows, and the derivatives
+/// with respect to these inputs. A drive that other rows imply has no input, because it does not
+/// prescribe a motion by itself.
 pub(crate) fn all(
     curves: &mut Curves<'_>,
     bases: &Bases,

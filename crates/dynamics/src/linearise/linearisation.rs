@@ -16,21 +16,21 @@ pub struct Linearisation {
     pub q: Vec<f64>,
     /// The positions in the state vector x. The positions are the first components of x.
     pub positions: Vec<Coordinate>,
-    /// The velocities in the state vector x. They follow the positions.
+    /// The velocities in the state vector x. The velocities follow the positions.
     pub velocities: Vec<Coordinate>,
     /// The inputs u.
     pub inputs: Vec<Input>,
-    /// Drives and joints whose functions of time would accelerate them; they are locked because the
-    /// state is at rest.
+    /// Drives and joints whose functions of time would accelerate them. These drives and joints are
+    /// locked because the state is at rest.
     pub held: Vec<String>,
-    /// A, square.
+    /// The square matrix A.
     pub a: Matrix,
-    /// B, a column for each input.
+    /// The matrix B, with one column for each input.
     pub b: Matrix,
-    /// Mass, damping and stiffness of `M·ÿ + D·ẏ + K·y = …` for the positions y; only for a state
-    /// at rest without nonholonomic rows and without cyclic coordinates.
+    /// Mass, damping and stiffness of `M·ÿ + D·ẏ + K·y = …` for the positions y. The matrices exist
+    /// only for a state at rest without nonholonomic rows and without cyclic coordinates.
     pub second_order: Option<SecondOrder>,
-    /// Displacements of all bodies for a unit change of each position, in rows: n_v each.
+    /// Displacements of all bodies for a unit change of each position. Each row has n_v values.
     pub shapes: Matrix,
     /// Difference between the results of two orders of approximation, as a share of the largest
     /// entries of A.

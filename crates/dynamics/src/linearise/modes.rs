@@ -1,36 +1,37 @@
-//! Modes: eigenvalues of A with their shapes.
+//! Modes: eigenvalues of A and their mode shapes.
 
 use super::Linearisation;
 
-/// An eigenvalue and its shape; complex numbers are stored as real and imaginary parts. Only the
-/// eigenvalue with the positive imaginary part is listed for a conjugate pair.
+/// An eigenvalue and its mode shape. Complex numbers are stored as real and imaginary parts. Only
+/// the eigenvalue with the positive imaginary part is listed for a conjugate pair.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Mode {
-    /// The eigenvalue λ (1/s); exactly zero if it is not larger than the rounding error.
+    /// The eigenvalue λ (1/s). The value is exactly zero if it is not larger than the rounding
+    /// error.
     pub value: [f64; 2],
-    /// Entries of the eigenvector, in the order of the states. The largest position is 1; if all
+    /// Entries of the eigenvector, in the order of the states. The largest position is 1. If all
     /// positions are zero, the largest velocity is 1.
     pub states: Vec<[f64; 2]>,
 }
 
 impl Mode {
-    /// |λ| (rad/s).
+    /// Returns |λ| (rad/s).
     #[must_use]
     pub fn natural_frequency(&self) -> f64 {
         self.value[0].hypot(self.value[1])
     }
 
-    /// −Re λ/|λ|: 1 for a mode that decays without oscillation, −1 for a mode that grows without
-    /// oscillation; `None` for λ = 0.
+    /// Returns −Re λ/|λ|. The ratio is 1 for a mode that decays without oscillation, and −1 for a
+    /// mode that grows without oscillation. The result is `None` for λ = 0.
     #[must_use]
     pub fn damping_ratio(&self) -> Option<f64> {
         let size = self.natural_frequency();
         (size > 0.0).then(|| 0.0 - self.value[0] / size)
     }
 
-    /// Whether the mode oscillates.
+    /// Returns whether the mode oscillates.
     #[must_use]
     pub fn oscillates(&self) -> bool {
         self.value[1] != 0.0
@@ -43,14 +44,15 @@ impl Mode {
 pub enum Stability {
     /// All small motions decay.
     Stable,
-    /// Some motions neither decay nor grow at first order; terms of higher order decide.
+    /// Some motions neither decay nor grow at first order. Terms of higher order decide whether
+    /// these motions grow.
     Marginal,
     /// Some motions grow.
     Unstable,
 }
 
 impl Stability {
-    /// Name of the result in output.
+    /// Returns the name of the result in output.
     #[must_use]
     pub fn word(self) -> &'static str {
         match self {
@@ -60,7 +62,7 @@ impl Stability {
         }
     }
 
-    /// The stability that follows from the modes.
+    /// Returns the stability that the modes imply.
     #[must_use]
     pub fn of(modes: &[Mode]) -> Self {
         let largest = modes
@@ -79,7 +81,7 @@ impl Stability {
 }
 
 impl Linearisation {
-    /// The modes of A, in the order of their real parts, the largest first. `None` if the
+    /// Returns the modes of A, sorted by their real parts, the largest first. Returns `None` if the
     /// eigenvalues do not converge.
     #[must_use]
     pub fn modes(&self) -> Option<Vec<Mode>> {
@@ -114,10 +116,10 @@ impl Linearisation {
         Some(modes.filter(|mode| mode.value[1] >= 0.0).collect())
     }
 
-    /// Radius of a circle around zero. Eigenvalues inside the circle would be zero without
-    /// rounding. In a Jordan block of k rows, rounding changes zero eigenvalues by up to
-    /// `‖A‖·ε^(1/k)`. This may be far more than the square root of the rounding error, because the
-    /// block may contain all eigenvalues.
+    /// Returns the radius of a circle around zero. Eigenvalues inside the circle would be zero
+    /// without rounding. In a Jordan block of k rows, rounding changes zero eigenvalues by up to
+    /// `‖A‖·ε^(1/k)`. This change may be far more than the square root of the rounding error,
+    /// because the block may contain all eigenvalues.
     fn around_zero(&self, sizes: impl Iterator<Item = f64>) -> f64 {
         let entries = self.a.as_slice().iter();
         let norm = entries.map(|x| x * x).sum::<f64>().sqrt();
@@ -136,8 +138,8 @@ impl Linearisation {
             .fold(0.0, f64::max)
     }
 
-    /// Displacement of all bodies at a phase (rad) of a mode whose largest position is `amplitude`,
-    /// n_v.
+    /// Returns the displacement of all bodies (n_v values) at a phase (rad) of a mode whose largest
+    /// position is `amplitude`.
     #[must_use]
     pub fn shape(&self, mode: &Mode, phase: f64, amplitude: f64) -> Vec<f64> {
         let (sin, cos) = phase.sin_cos();
@@ -156,7 +158,7 @@ mod tests {
     use super::{Linearisation, Stability};
     use crate::linearise::Coordinate;
 
-    /// A linearisation with this matrix; positions come before velocities.
+    /// Returns a linearisation with this matrix. Positions come before velocities.
     fn with(a: Matrix, positions: usize) -> Linearisation {
         let coordinate = |k: usize| Coordinate {
             name: format!("x{k}"),
@@ -180,9 +182,10 @@ mod tests {
         }
     }
 
-    /// A vehicle on four wheels of 0.1 m rolls straight ahead at 1 m/s. Its heading, the rotations
-    /// of its wheels and its lateral position are positions of the state, and its speed is a
-    /// velocity. All eigenvalues are zero; rounding changes two of them to 3e-15 ± 3e-8i.
+    /// A vehicle on four wheels of 0.1 m rolls straight ahead at 1 m/s. The heading of the vehicle,
+    /// the rotations of its wheels and its lateral position are positions of the state, and its
+    /// speed is a velocity. All eigenvalues are zero. Rounding changes two of them to 3e-15 ±
+    /// 3e-8i.
     #[test]
     fn rounding_around_a_multiple_zero_neither_grows_nor_decays() {
         let mut a = Matrix::zeros(7, 7);
@@ -228,7 +231,7 @@ mod tests {
         assert!((modes[0].value[0] - expected).abs() < 1e-14, "{modes:?}");
     }
 
-    /// Three masses: one on a soft spring, one on a stiff spring and one without a spring.
+    /// Three masses: one mass on a soft spring, one on a stiff spring and one without a spring.
     #[test]
     fn slow_modes_are_not_taken_for_zero() {
         let mut a = Matrix::zeros(6, 6);

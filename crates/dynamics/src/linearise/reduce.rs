@@ -1,4 +1,4 @@
-//! The motion relative to its cyclic coordinates, which are eliminated.
+//! The motion relative to its cyclic coordinates. The cyclic coordinates are eliminated.
 
 use linalg::Matrix;
 use model::space::cross;
@@ -11,7 +11,8 @@ use super::followed::FollowedCoordinates;
 use super::linearisation::Linearisation;
 use crate::limits::SYMMETRY;
 
-/// Eliminates the cyclic coordinates, after a check that the motion does not depend on them.
+/// Eliminates the cyclic coordinates. The function first checks that the motion does not depend on
+/// them.
 pub(crate) fn reduce(
     followed: &FollowedCoordinates,
     whole: Linearisation,
@@ -70,8 +71,8 @@ pub(crate) fn reduce(
     })
 }
 
-/// The change of the states if the whole mechanism moves along a coordinate by one unit, or rotates
-/// about the axis of this coordinate.
+/// Returns the change of the states if the whole mechanism moves along a coordinate by one unit, or
+/// rotates about the axis of this coordinate.
 fn symmetry(c: &Coordinate, chosen: &CoordinateChoice, curves: &Curves<'_>) -> Vec<f64> {
     let (_, q, v) = curves.state();
     let frames = curves.mechanism().frames();

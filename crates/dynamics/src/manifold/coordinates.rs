@@ -1,14 +1,14 @@
 //! Independent coordinates z and velocities u. The constraint rows determine all other coordinates
 //! and velocities, so the motion is an ordinary differential equation in z and u. The integrator
-//! nevertheless integrates the vector y of all coordinates and velocities: `f(y) = F(P·y)`, where P
+//! nevertheless integrates the vector y of all coordinates and velocities: `f(y) = F(P·y)`. Here P
 //! completes a state from its independent entries. Therefore results, projections and output do not
 //! depend on the partition into independent and dependent coordinates. Steps of explicit methods
-//! need no projection; implicit methods have a Jacobian without constraints ([`crate::run`]).
+//! need no projection. Implicit methods have a Jacobian without constraints ([`crate::run`]).
 //!
 //! The partition is constant during a step and its dense output, because f must not change during a
-//! step. If its pivots have become small, a new partition is chosen at the accepted state when the
-//! next step starts. Near a singular configuration no partition exists, and a step that needs a
-//! partition is rejected.
+//! step. If the pivots of the partition have become small, a new partition is chosen at the
+//! accepted state when the next step starts. Near a singular configuration no partition exists. A
+//! step that needs a partition is then rejected.
 
 use model::{Mechanism, System};
 
@@ -29,17 +29,18 @@ pub(crate) struct IndependentCoordinates {
     /// Whether no step has started from the accepted state.
     is_fresh: bool,
     /// The configuration relative to which independent rotations are computed, and the number of
-    /// reference configurations before it.
+    /// earlier reference configurations.
     pub(crate) base: Vec<f64>,
     pub(crate) bases: u64,
-    /// The state at which a new partition is to be chosen, if necessary.
+    /// The state at which a new partition must be chosen, if a new partition is necessary.
     renewal: Option<Origin>,
-    /// Work memory: a configuration before its completion, n_q, and a correction, n_v.
+    /// Work memory: a configuration before its completion (n_q values), and a correction (n_v
+    /// values).
     guess: Vec<f64>,
     storage: ProjectionStorage,
 }
 
-/// Which coordinates and velocities are independent.
+/// The coordinates and velocities that are independent.
 pub(crate) struct Partition {
     /// Columns of Φq whose coordinates are independent.
     pub(crate) z: Vec<usize>,
@@ -60,7 +61,8 @@ pub(crate) struct Origin {
 }
 
 impl IndependentCoordinates {
-    /// Partitions the coordinates at the last evaluated pose, which must be the pose of `origin`.
+    /// Partitions the coordinates at the last evaluated pose. This pose must be the pose of
+    /// `origin`.
     pub(super) fn new(
         equations: &mut KeptEquations<'_>,
         origin: Origin,
@@ -107,7 +109,8 @@ impl IndependentCoordinates {
     /// Completes a state by iteration. The initial value is the last completed state. If the
     /// iteration fails or ends too far away, it is repeated from the last accepted state, and then
     /// from the values of the integrator. In a mechanism without degrees of freedom the values of
-    /// the integrator are used first, because no other value shows how far the motion has advanced.
+    /// the integrator are used first, because only these values show how far the motion has
+    /// advanced.
     pub(crate) fn complete(
         &mut self,
         equations: &mut KeptEquations<'_>,
@@ -143,8 +146,7 @@ impl IndependentCoordinates {
         near
     }
 
-    /// Overwrites dependent coordinates and velocities; afterwards the rows are factored at the
-    /// result.
+    /// Overwrites dependent coordinates and velocities. The rows are then factored at the result.
     fn complete_from_here(
         &mut self,
         equations: &mut KeptEquations<'_>,
@@ -169,8 +171,8 @@ impl IndependentCoordinates {
         velocity.complete(at, &mut self.v)
     }
 
-    /// The longest displacement along a column of C from the last accepted state to time t, at the
-    /// velocities of this state, in units of the mechanism.
+    /// Returns the longest displacement along a column of C from the last accepted state to time t,
+    /// at the velocities of this state. The displacement is in units of the mechanism.
     fn way_to(&self, t: f64, at: &Evaluation<'_>) -> f64 {
         let velocities = self.accepted.v.iter().enumerate();
         let rates = velocities.map(|(j, v)| v.abs() / at.mechanism.space().unit(j, at.size));
@@ -179,7 +181,7 @@ impl IndependentCoordinates {
 
     /// Copies the independent entries of a state. The other entries keep the values of the last
     /// completed state. The integrator's values of these entries may have an error as large as a
-    /// step. From such values, Newton's method may converge to another branch or another
+    /// step. With such initial values, Newton's method may converge to another branch or another
     /// revolution. For unwrapped angles, only the number of revolutions is read from the
     /// integrator's values.
     fn take_independent(&mut self, mechanism: &Mechanism, q: &[f64], v: &[f64]) {
@@ -195,7 +197,7 @@ impl IndependentCoordinates {
     /// check.
     ///
     /// # Errors
-    /// [`MotionFault::FarCompletion`]
+    /// Returns [`MotionFault::FarCompletion`] in this case.
     pub(crate) fn check_travel(
         &mut self,
         at: &Evaluation<'_>,
@@ -219,8 +221,8 @@ impl IndependentCoordinates {
         }
     }
 
-    /// Accepts the state just evaluated, at time t. If the partition is ill-conditioned, a new one
-    /// is chosen from this state when the next step starts.
+    /// Accepts the state just evaluated, at time t. If the partition is ill-conditioned, a new
+    /// partition is chosen from this state when the next step starts.
     pub(crate) fn accept(&mut self, t: f64, is_worn: bool) {
         self.accepted.t = t;
         self.accepted.q.copy_from_slice(&self.q);
@@ -232,8 +234,8 @@ impl IndependentCoordinates {
     }
 
     /// Computes rotations relative to the accepted state from now on, if a step has started from
-    /// this state. Half a turn away from their reference configuration, rotations are not valid
-    /// coordinates.
+    /// this state. Rotations are not valid coordinates at half a turn away from their reference
+    /// configuration.
     pub(crate) fn begin_step(&mut self, mechanism: &Mechanism, has_begun: impl Fn(f64) -> bool) {
         let held = &mut self.storage.held;
         if self.is_fresh && !held.is_empty() && has_begun(self.accepted.t) {
@@ -244,8 +246,8 @@ impl IndependentCoordinates {
         }
     }
 
-    /// The state at which a new partition is to be chosen, if a step has started; `has_begun`
-    /// decides this from the time of the accepted state.
+    /// Returns the state at which a new partition must be chosen, if a step has started.
+    /// `has_begun` decides whether a step has started, from the time of the accepted state.
     pub(crate) fn due(&self, has_begun: impl Fn(f64) -> bool) -> Option<Origin> {
         let due = self.renewal.as_ref();
         due.filter(|origin| has_begun(origin.t)).cloned()

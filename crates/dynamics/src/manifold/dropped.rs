@@ -1,6 +1,6 @@
-//! Redundant rows: checks whether the independent rows imply them, and computes the residuals of
-//! all rows. The residual of a redundant row after projection certifies the redundancy at no extra
-//! cost.
+//! Redundant rows. The module checks whether the independent rows imply the redundant rows, and
+//! computes the residuals of all rows. The residual of a redundant row after projection certifies
+//! the redundancy at no extra cost.
 
 use model::{ConstraintLevel, Level, System};
 
@@ -17,15 +17,15 @@ use crate::solve::{Evaluation, KeptEquations, KeptRows, Misfits};
 pub struct Correction {
     /// Number of corrections of the position.
     pub iterations: usize,
-    /// Largest |Φ| of all rows afterwards.
+    /// Largest |Φ| of all rows after the projection.
     pub position_residual: f64,
-    /// Largest |C·v − b| of all rows afterwards.
+    /// Largest |C·v − b| of all rows after the projection.
     pub velocity_residual: f64,
 }
 
-/// Residuals of all rows at a projected state. `iterations` is the number of corrections, and
-/// `left` the largest velocity residual of the independent rows. Returns an error if a redundant
-/// row is above its limit. `horizon` is the duration of the run (s).
+/// Computes the residuals of all rows at a projected state. `iterations` is the number of
+/// corrections, and `left` is the largest velocity residual of the independent rows. Returns an
+/// error if a redundant row is above its limit. `horizon` is the duration of the run (s).
 pub(super) fn monitor(
     equations: &mut KeptEquations<'_>,
     v: &[f64],
@@ -63,9 +63,9 @@ pub(super) fn monitor(
         return Ok(found);
     }
     // The rows cannot agree better than the rounding error of the coordinates allows. Independent
-    // rows are solved to the rounding error of the fastest of them, so redundant rows are not more
-    // accurate. A violation of redundant rows within a tolerance is not an error of the
-    // coordinates.
+    // rows are solved to the rounding error of the row with the largest terms. Therefore redundant
+    // rows are not more accurate. A violation of redundant rows within a tolerance is not an error
+    // of the coordinates.
     let position = &equations.position;
     let exact = position.kept.iter();
     let exact = exact.chain(
@@ -101,7 +101,7 @@ pub(super) fn check_positions(equations: &mut KeptEquations<'_>) -> Result<(), M
     check.of(rows, at, &mut equations.misfits)
 }
 
-/// The drives and joints with functions of time in the dependency of the redundant row i.
+/// Returns the drives and joints with functions of time in the dependency of the redundant row i.
 fn drives_among(
     rows: &mut KeptRows,
     at: &Evaluation<'_>,
@@ -121,9 +121,9 @@ fn drives_among(
     Ok(names)
 }
 
-/// Allowed residual of rows that depend on these rows, as a share of their terms. The rounding
-/// error of the independent rows is multiplied by the inverse of the pivots, so it is larger near a
-/// singular configuration.
+/// Returns the allowed residual of rows that depend on these rows, as a share of their terms. The
+/// rounding error of the independent rows is multiplied by the inverse of the pivots. Therefore it
+/// is larger near a singular configuration.
 fn dropped_misfit(rows: &KeptRows) -> f64 {
     DROPPED_MISFIT / rows.relative_pivot().clamp(NEAREST_PIVOT, 1.0)
 }
@@ -134,12 +134,12 @@ struct Check<'v, R, F> {
     /// Allowed residual of redundant rows, as a share of the terms.
     share: f64,
     residual: R,
-    /// Largest allowed share, however large the rounding error of the independent rows is. Above
-    /// this share, the program cannot decide whether the row is satisfied.
+    /// Largest allowed share, for any rounding error of the independent rows. Above this share, it
+    /// cannot be decided whether the row is satisfied.
     most: f64,
-    /// Allowed residual, however small the terms are. A difference between velocities or positions
-    /// is allowed if it causes only a small displacement during the run. The limit of this
-    /// displacement is a share of the size of the mechanism, however slow the motion is.
+    /// Allowed residual for rows with any terms. A difference between velocities or positions is
+    /// allowed if it causes only a small displacement during the run. The limit of this
+    /// displacement is a share of the size of the mechanism, even if the motion is slow.
     floor: F,
 }
 
@@ -160,8 +160,8 @@ where
         self.level.of == ConstraintLevel::Velocity
     }
 
-    /// Returns an error for the first redundant row that the independent rows do not imply, not
-    /// even for data within a stated tolerance.
+    /// Returns an error for the first redundant row that the independent rows do not imply. The row
+    /// must also not be implied for data within a stated tolerance.
     fn of(
         &self,
         rows: &mut KeptRows,

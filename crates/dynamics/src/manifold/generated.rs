@@ -30,7 +30,7 @@ pub(crate) struct CodeProjection {
     before: (Vec<f64>, Vec<f64>),
 }
 
-/// For each row, the columns of C with nonzero entries, and bounds on these entries.
+/// For each row, the columns of C with nonzero entries, and bounds on the entries.
 struct Bounds {
     /// Index of the first entry of each row, and the end of the last row: m + h + 1 values.
     start: Vec<usize>,
@@ -78,8 +78,8 @@ impl CodeProjection {
         }
     }
 
-    /// Moves q and v onto the constraint manifold and checks all rows; q and v are unchanged if the
-    /// result is unreliable.
+    /// Moves q and v onto the constraint manifold and checks all rows. If the result is unreliable,
+    /// q and v are unchanged.
     pub(crate) fn project(
         &mut self,
         GeneratedCode(code): &GeneratedCode<'_>,
@@ -223,8 +223,9 @@ impl Level for CodeVelocities<'_> {
     }
 }
 
-/// The independent row with the largest residual, in roundings of its terms (infinite if the
-/// residual is NaN). Before the first correction the value is not used.
+/// Returns the independent row with the largest residual, and the residual in roundings of the
+/// terms of the row. The residual is infinite if it is NaN. The value is not used before the first
+/// correction.
 fn worst_kept(corrections: usize, x: &[f64], keeps: &[bool], sizes: &[f64]) -> (usize, f64) {
     if corrections == 0 {
         return (0, f64::INFINITY);
@@ -241,8 +242,8 @@ fn worst_kept(corrections: usize, x: &[f64], keeps: &[bool], sizes: &[f64]) -> (
     (row, share / f64::EPSILON)
 }
 
-/// Checks that redundant rows are satisfied. Their residuals are compared with the largest row,
-/// because the rounding errors of all rows affect them.
+/// Checks that redundant rows are satisfied. The residuals of these rows are compared with the
+/// largest row, because the rounding errors of all rows affect them.
 fn check_dropped(x: &[f64], keeps: &[bool], sizes: &[f64]) -> Result<(), Doubt> {
     if !GUARDED {
         return Ok(());

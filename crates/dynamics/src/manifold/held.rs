@@ -2,11 +2,11 @@
 //!
 //! A quaternion has no entry for one independent rotation. The integrator stores the complete
 //! orientation, of which the dependent part is an estimate. A correction of this part about two
-//! axes of a body also rotates the body about the third axis. Therefore the independent part is the
-//! twist about the axis relative to the orientation at the start of a step. For a relative
-//! quaternion (w, x, y, z) and the third axis, the twist is `2·atan2(z, w)`, which does not depend
-//! on x and y. To first order the twist is the coordinate in the Jacobian of an implicit method
-//! ([`crate::run`]). A completion does not change the twist, because the rows and the twist
+//! axes of a body also rotates the body about the third axis. Therefore the independent part is
+//! defined as the twist about the axis relative to the orientation at the start of a step. For a
+//! relative quaternion (w, x, y, z) and the third axis, the twist is `2·atan2(z, w)`, which does
+//! not depend on x and y. To first order the twist is the coordinate in the Jacobian of an implicit
+//! method ([`crate::run`]). A completion does not change the twist, because the rows and the twist
 //! functions are solved together for all rotations.
 
 use std::f64::consts::TAU;
@@ -26,7 +26,7 @@ struct Twist {
     own: Range<usize>,
     length: f64,
     /// Twice the sine of half the angle, and the cosine of half the angle, up to a common factor.
-    /// Both are linear forms: indices into q with coefficients.
+    /// Both are linear forms, given as indices into q with coefficients.
     sine: Vec<(usize, f64)>,
     cosine: Vec<(usize, f64)>,
 }
@@ -41,14 +41,14 @@ pub(super) struct IndependentRotations {
     twists: Vec<Twist>,
     /// Values that a completion does not change.
     values: Vec<f64>,
-    /// Row j: the motion that satisfies the rows and rotates along column j, but along no other
-    /// independent column, n_v.
+    /// Row j is the motion (n_v values) that satisfies the rows and rotates along column j, but not
+    /// along any other independent column.
     tangents: Matrix,
-    /// Entry (i, j): rate of rotation i for tangent j; factored.
+    /// Entry (i, j) is the rate of rotation i for tangent j. The matrix is factored.
     system: Option<Lu>,
     /// Shares of the tangents in a correction.
     shares: Vec<f64>,
-    /// A rate of q, n_q.
+    /// A rate of q, n_q values.
     rate: Vec<f64>,
 }
 
@@ -84,7 +84,7 @@ impl IndependentRotations {
         held
     }
 
-    /// Whether there are no independent rotations that a completion must preserve.
+    /// Returns whether there are no independent rotations that a completion must preserve.
     pub(super) fn is_empty(&self) -> bool {
         self.columns.is_empty()
     }
@@ -115,7 +115,7 @@ impl IndependentRotations {
         }
     }
 
-    /// The largest difference of this configuration from the stored values, in radians.
+    /// Returns the largest difference of this configuration from the stored values, in radians.
     pub(super) fn off(&self, q: &[f64]) -> f64 {
         let of = |(value, twist): (&f64, &Twist)| twist.behind(*value, q).abs();
         let off = self.values.iter().zip(&self.twists).map(of);
@@ -123,7 +123,8 @@ impl IndependentRotations {
         off.fold(0.0, |a: f64, x| if x <= a { a } else { x })
     }
 
-    /// Computes the tangents with freshly factored rows; afterwards their right-hand side is zero.
+    /// Computes the tangents with freshly factored rows. The right-hand side of the rows is then
+    /// zero.
     pub(super) fn find_tangents(
         &mut self,
         at: &Evaluation<'_>,
@@ -174,24 +175,24 @@ impl IndependentRotations {
 }
 
 impl Twist {
-    /// Sine and cosine of half the angle, up to a common factor.
+    /// Returns sine and cosine of half the angle, up to a common factor.
     fn half(&self, q: &[f64]) -> [f64; 2] {
         [0.5 * read(&self.sine, q), read(&self.cosine, q)]
     }
 
-    /// The angle (rad), between −π and π.
+    /// Returns the angle (rad), between −π and π.
     fn angle(&self, q: &[f64]) -> f64 {
         let [sine, cosine] = self.half(q);
         2.0 * (sine / cosine).atan()
     }
 
-    /// Another angle minus the angle of q (rad), between −π and π.
+    /// Returns another angle minus the angle of q (rad), between −π and π.
     fn behind(&self, angle: f64, q: &[f64]) -> f64 {
         let off = angle - self.angle(q);
         off - TAU * (off / TAU).round()
     }
 
-    /// The rate of the angle at q if q changes at the given rate.
+    /// Returns the rate of the angle at q if q changes at the given rate.
     fn rate(&self, q: &[f64], rate: &[f64]) -> f64 {
         let ([s, c], [s_rate, c_rate]) = (self.half(q), self.half(rate));
         2.0 * (c * s_rate - s * c_rate) / (s * s + c * c)

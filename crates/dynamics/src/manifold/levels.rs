@@ -1,5 +1,5 @@
-//! Positions and velocities of independent rows as levels of Newton's method: positions need
-//! several corrections, velocities need one linear solution and corrections of its rounding error.
+//! Positions and velocities of independent rows as levels of Newton's method. Positions need
+//! several corrections. Velocities need one linear solution and corrections of its rounding error.
 
 use model::System;
 
@@ -12,7 +12,7 @@ use crate::limits::{
 };
 use crate::solve::{KeptEquations, KeptRows};
 
-/// Which coordinates a correction moves.
+/// The coordinates that a correction changes.
 #[derive(Clone, Copy, PartialEq)]
 pub(super) enum Moves {
     /// All coordinates are corrected, by the smallest change in the mass metric.
@@ -33,8 +33,8 @@ struct Positions<'a, 'm> {
 pub(super) struct ProjectionStorage {
     /// A correction, n_v.
     pub(super) delta: Vec<f64>,
-    /// Sizes of the terms of the independent rows of Φ at the first configuration; corrections
-    /// change them only slightly.
+    /// Sizes of the terms of the independent rows of Φ at the first configuration. Corrections
+    /// change these sizes only slightly.
     scales: Vec<f64>,
     /// Rotations that a completion does not change, for bodies that also have dependent rotations.
     pub(super) held: IndependentRotations,
@@ -65,7 +65,7 @@ impl Level for Positions<'_, '_> {
         }
         let mut worst = (0, 0.0_f64);
         for (k, &i) in position.kept.iter().enumerate() {
-            // The solution cannot correct a row that is left out of it.
+            // The solution cannot correct a row that is omitted from it.
             if phi[i] == 0.0 || corrections > 0 && !position.uses(k) {
                 continue;
             }
@@ -108,7 +108,7 @@ impl Level for Positions<'_, '_> {
     }
 }
 
-/// Moves q onto the independent rows of Φ; returns the number of corrections.
+/// Moves q onto the independent rows of Φ. Returns the number of corrections.
 pub(super) fn correct_position(
     equations: &mut KeptEquations<'_>,
     (t, q): (f64, &mut [f64]),
@@ -159,7 +159,7 @@ struct Velocities<'a, 'm> {
     equations: &'a mut KeptEquations<'m>,
     v: &'a mut [f64],
     delta: &'a mut [f64],
-    /// Largest residual of the rows afterwards.
+    /// Largest residual of the rows after the corrections.
     left: f64,
 }
 
@@ -192,8 +192,8 @@ impl Level for Velocities<'_, '_> {
     }
 }
 
-/// Moves v onto the independent rows of C, which are factored at a settled position; returns their
-/// largest residual afterwards.
+/// Moves v onto the independent rows of C, which must be factored at a settled position. Returns
+/// their largest residual after the correction.
 pub(super) fn correct_velocity(
     equations: &mut KeptEquations<'_>,
     v: &mut [f64],
@@ -215,12 +215,12 @@ pub(super) fn correct_velocity(
     Ok(level.left)
 }
 
-/// The largest |x_i|.
+/// Returns the largest |x_i|.
 pub(super) fn largest(x: &[f64]) -> f64 {
     x.iter().fold(0.0, |a: f64, x| a.max(x.abs()))
 }
 
-/// Number of rounding errors below which rows count as satisfied.
+/// Returns the number of rounding errors below which rows count as satisfied.
 fn enough(rows: &KeptRows) -> f64 {
     if rows.relative_pivot() < WEAK {
         FEW_ROUNDINGS

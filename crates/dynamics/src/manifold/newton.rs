@@ -1,18 +1,19 @@
-//! Newton's method on one level of rows, positions or velocities. The level supplies residuals and
-//! corrections.
+//! Newton's method on one level of rows, either positions or velocities. The level computes
+//! residuals and corrections.
 
 use crate::limits::CONVERGENCE;
 
-/// One level of a state that is moved onto the constraints.
+/// A level of a state that is moved onto the constraints.
 pub(super) trait Level {
     /// Reason why the level cannot be corrected.
     type Fault;
 
-    /// Residual of the independent rows after this number of corrections: the worst row, and its
-    /// residual in rounding errors of its terms.
+    /// Returns the residual of the independent rows after this number of corrections. The result is
+    /// the row with the largest residual, and this residual in rounding errors of the terms of the
+    /// row.
     fn misses(&mut self, corrections: usize) -> (usize, f64);
 
-    /// Makes one correction; `converges` states whether the last correction reduced the residual to
+    /// Makes one correction. `converges` states whether the last correction reduced the residual to
     /// a tenth or less.
     fn correct(&mut self, converges: bool) -> Result<(), Self::Fault>;
 }
@@ -43,7 +44,7 @@ pub(super) fn correct<L: Level>(level: &mut L, limits: &Limits) -> Result<End, L
     let mut corrections = 0;
     loop {
         let (worst, roundings) = level.misses(corrections);
-        // Rounding errors may leave a slightly larger residual: an iteration that stalls near this
+        // Rounding errors may leave a slightly larger residual. An iteration that stalls near this
         // limit has also converged.
         let is_stalled = roundings >= 0.5 * best && roundings <= limits.stalled;
         let is_reached = corrections >= least && (roundings <= limits.enough || is_stalled);
@@ -68,7 +69,8 @@ mod tests {
     use super::*;
     use crate::limits::{ROUNDINGS, STALLED_ROUNDINGS};
 
-    /// A row whose residual is multiplied by a factor at each correction, down to a lower limit.
+    /// A row whose residual is multiplied by a factor at each correction. The residual has a lower
+    /// limit.
     struct Shrinking {
         misfit: f64,
         factor: f64,
@@ -109,13 +111,13 @@ mod tests {
         assert_eq!(run(5.0, 0.1, 0.0, [0, 20]), (0, true));
         assert_eq!(run(5.0, 0.1, 0.0, [1, 20]), (1, true));
         assert_eq!(run(1e4, 0.1, 0.0, [0, 20]), (3, true));
-        // A lower limit of 30 roundings is accepted, one of 100 is not.
+        // A lower limit of 30 roundings is accepted, but a limit of 100 roundings is not.
         assert_eq!(run(1e4, 0.1, 30.0, [0, 20]), (4, true));
         assert_eq!(run(1e4, 0.1, 100.0, [0, 20]), (20, false));
         assert_eq!(run(f64::NAN, 0.1, 0.0, [0, 20]), (0, false));
     }
-    /// A row whose residual falls by a constant factor; records whether old factors may be used
-    /// again.
+    /// A row whose residual falls by a constant factor. The row records whether old factors may be
+    /// used again.
     struct Falling {
         misfit: f64,
         share: f64,
@@ -136,8 +138,8 @@ mod tests {
         }
     }
 
-    /// A factorisation costs about as much as ten corrections. It is worth its cost if one
-    /// correction does not reduce the residual to a tenth.
+    /// A factorisation costs about as much as ten corrections. A factorisation is therefore made if
+    /// one correction does not reduce the residual to a tenth.
     #[test]
     fn factors_serve_as_long_as_a_correction_gains_a_digit() {
         for (share, serves) in [(0.09, true), (0.11, false)] {

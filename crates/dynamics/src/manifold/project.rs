@@ -16,8 +16,8 @@ pub(crate) struct Manifold {
     /// Independent coordinates, if the motion uses them.
     pub(crate) coordinates: Option<IndependentCoordinates>,
     stabilisation: Stabilisation,
-    /// Duration of the run (s). It is infinite if it is not given or zero; then no difference
-    /// between velocities is allowed.
+    /// Duration of the run (s). The duration is infinite if the duration is not given or zero. In
+    /// this case, no difference between velocities is allowed.
     horizon: f64,
     storage: ProjectionStorage,
 }
@@ -32,14 +32,14 @@ impl Manifold {
         }
     }
 
-    /// Whether states are moved onto the constraint manifold; always true with independent
-    /// coordinates.
+    /// Returns whether states are moved onto the constraint manifold. The result is always true
+    /// with independent coordinates.
     pub(crate) fn projects(&self) -> bool {
         self.coordinates.is_some() || self.stabilisation == Stabilisation::Projection
     }
 
-    /// Switches the motion to independent coordinates, chosen at the last evaluated pose, which
-    /// must be the pose of `origin`.
+    /// Switches the motion to independent coordinates. The independent coordinates are chosen at
+    /// the last evaluated pose, which must be the pose of `origin`.
     pub(crate) fn choose_coordinates(
         &mut self,
         equations: &mut KeptEquations<'_>,
@@ -50,7 +50,7 @@ impl Manifold {
         Ok(())
     }
 
-    /// Moves q onto the constraint manifold and factors the rows at the result; returns the number
+    /// Moves q onto the constraint manifold and factors the rows at the result. Returns the number
     /// of corrections.
     pub(crate) fn settle(
         &mut self,
@@ -64,7 +64,7 @@ impl Manifold {
         Ok(corrections)
     }
 
-    /// Completes a state on independent coordinates and settles its position. After a completion
+    /// Completes a state on independent coordinates and settles its position. After a completion,
     /// the corrections remove only rounding errors.
     pub(crate) fn settle_completed(
         &mut self,
@@ -113,8 +113,8 @@ impl Manifold {
         correct_velocity(equations, v, &mut self.storage).map(drop)
     }
 
-    /// The change of [q; v] that a projection would make, for states that are not projected;
-    /// allocates memory. Redundant rows are checked nevertheless.
+    /// Returns the change of [q; v] that a projection would make, for states that are not
+    /// projected. The function allocates memory. Redundant rows are nevertheless checked.
     pub(crate) fn missed_correction(
         &mut self,
         equations: &mut KeptEquations<'_>,

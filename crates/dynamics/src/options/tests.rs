@@ -2,7 +2,7 @@
 
 use super::MotionOptions;
 
-/// Error message for changed options of a run over 10 s.
+/// Returns the error message for changed options of a run over 10 s.
 fn said(change: impl Fn(&mut MotionOptions)) -> Result<(), String> {
     let mut options = MotionOptions::to(10.0);
     change(&mut options);
@@ -65,8 +65,8 @@ fn the_ends_of_the_ranges_are_right() {
 }
 
 /// A full rotation is drawn in a figure of a thousand pixels, as chords between the output rows of
-/// a run. It deviates from a circle by at most a fifth of a pixel, and by at least a tenth of that:
-/// `1 − cos(π/n)` of the radius.
+/// a run. The drawing deviates from a circle by at most a fifth of a pixel, and by at least a tenth
+/// of this value. The deviation is `1 − cos(π/n)` of the radius.
 #[test]
 fn a_turn_is_as_round_as_a_picture_shows() {
     let rows = 1.0 / MotionOptions::to(1.0).output_step;

@@ -30,7 +30,7 @@ enum Whose<'a> {
 }
 
 impl<'a> ComponentPlan<'a> {
-    /// The whole mechanism as one component, with the reactions of the requested groups.
+    /// Returns the whole mechanism as one component, with the reactions of the requested groups.
     pub(super) fn whole(
         prepared: &'a PreparedMechanism,
         options: &MotionOptions,
@@ -40,8 +40,8 @@ impl<'a> ComponentPlan<'a> {
         Self::of(Whose::Whole(prepared), options, reactions)
     }
 
-    /// A component as a part of the whole mechanism; `wanted` has one entry for each joint and
-    /// drive of the whole mechanism.
+    /// Returns a component as a part of the whole mechanism. `wanted` has one entry for each joint
+    /// and drive of the whole mechanism.
     pub(super) fn part(
         (prepared, places): (PreparedMechanism, Places),
         options: &MotionOptions,
@@ -70,13 +70,13 @@ impl<'a> ComponentPlan<'a> {
         })
     }
 
-    /// The mechanism with its start.
+    /// Returns the mechanism with its start.
     #[must_use]
     pub fn prepared(&self) -> &PreparedMechanism {
         self.whose.prepared()
     }
 
-    /// The part of a group of the whole mechanism that belongs to this component.
+    /// Returns the part of a group of the whole mechanism that belongs to this component.
     pub(crate) fn share(&self, group: &Group) -> Option<Group> {
         match self.places() {
             None => Some(group.clone()),
@@ -87,14 +87,14 @@ impl<'a> ComponentPlan<'a> {
         }
     }
 
-    /// The part of a choice of the whole mechanism that belongs to this component.
+    /// Returns the part of a choice of the whole mechanism that belongs to this component.
     pub(crate) fn share_of_choice(&self, choice: &Choice) -> Choice {
         let places = self.places().cloned();
         choice.share(&places.map_or(Extent::Whole, Extent::Places))
     }
 
-    /// Indices of the component in the whole mechanism; `None` if the component is the whole
-    /// mechanism.
+    /// Returns the indices of the component in the whole mechanism, or `None` if the component is
+    /// the whole mechanism.
     #[must_use]
     pub fn places(&self) -> Option<&Places> {
         match &self.whose {
@@ -113,7 +113,7 @@ impl Whose<'_> {
     }
 }
 
-/// The bodies of a mechanism as text.
+/// Returns the bodies of a mechanism as text.
 fn name(mechanism: &Mechanism) -> String {
     let names: Vec<&str> = mechanism.bodies().iter().map(|b| b.name.as_str()).collect();
     match names.len() {

@@ -1,4 +1,4 @@
-//! A decision with its reason.
+//! A decision and the reason for it.
 
 use super::saving::{Cost, Saving};
 
@@ -18,7 +18,7 @@ pub struct Decision<T> {
 /// A decision as a line of a table.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Line<'p> {
-    /// The component; `None` if the decision is about the whole mechanism.
+    /// The component. `None` if the decision applies to the whole mechanism.
     pub component: Option<&'p str>,
     /// The question that is decided.
     pub decision: &'static str,
@@ -41,13 +41,13 @@ impl<T> Decision<T> {
         }
     }
 
-    /// Adds the saving of the decision, if any: `left_out` items of `of`.
+    /// Adds the saving of the decision: `left_out` items of `of` are omitted.
     pub(super) fn saving(self, left_out: u64, of: u64, what: Cost) -> Self {
         let saves = (left_out > 0).then_some(Saving { left_out, of, what });
         Self { saves, ..self }
     }
 
-    /// A line about the whole mechanism.
+    /// Returns a line about the whole mechanism.
     pub(super) fn line(&self, decision: &'static str) -> Line<'_> {
         Line {
             component: None,

@@ -1,4 +1,4 @@
-//! The decisions for one component. Each decision follows from a fact of the mechanism or of the
+//! The decisions for one component. Each decision is based on a fact of the mechanism or of the
 //! options. The code that executes the plan uses the same test.
 
 use linalg::GRADED_MASSES;
@@ -20,20 +20,20 @@ use crate::prepare::PreparedMechanism;
 pub struct Decisions {
     /// Integration method.
     pub method: Decision<Method>,
-    /// Whether the integrator needs memory for linear systems; the first step that uses this memory
-    /// allocates it.
+    /// Whether the integrator needs memory for linear systems. The memory is allocated by the first
+    /// step that uses it.
     pub linear_systems: Decision<bool>,
     /// Number of rows and columns of the matrix that is eliminated densely.
     pub elimination: Decision<[usize; 2]>,
     /// Whether solutions are refined from the start on.
     pub refinement: Decision<bool>,
-    /// Degrees of freedom; the motion of a mechanism without degrees of freedom is a function of
+    /// Degrees of freedom. The motion of a mechanism without degrees of freedom is a function of
     /// time.
     pub mobility: Decision<usize>,
     /// Rows that exist only at velocity level.
     pub nonholonomic: Decision<usize>,
-    /// Redundant rows: they are monitored, and exchanged for independent rows if these become
-    /// ill-conditioned.
+    /// Redundant rows. Redundant rows are monitored, and exchanged for independent rows if the
+    /// independent rows become ill-conditioned.
     pub dropped: Decision<usize>,
     /// Rows whose b and Φt are evaluated.
     pub of_time: Decision<usize>,
@@ -41,7 +41,7 @@ pub struct Decisions {
     pub entries: Decision<usize>,
     /// Rows whose Γ is evaluated.
     pub gamma: Decision<usize>,
-    /// Bodies whose angle changes, so that sine and cosine are evaluated.
+    /// Bodies whose angle changes. For these bodies, sine and cosine are evaluated.
     pub turning: Decision<usize>,
     /// Applied forces.
     pub forces: Decision<usize>,
@@ -75,7 +75,7 @@ impl Decisions {
         })
     }
 
-    /// One line for each decision.
+    /// Returns one line for each decision.
     #[must_use]
     pub fn lines(&self) -> Vec<Line<'_>> {
         vec![
@@ -98,9 +98,9 @@ impl Decisions {
 
 fn linear_systems(method: Method, sizes: &Sizes) -> Decision<bool> {
     let (n, w) = (sizes.velocities, 2 * sizes.mobility());
-    // Stored values: derivatives of [q; v] with respect to each independent entry, the matrix of
-    // the real system, and the matrix of the complex system, written as a real one of twice the
-    // order.
+    // The stored values are the derivatives of [q; v] with respect to each independent entry, the
+    // matrix of the real system, and the matrix of the complex system. The complex matrix is
+    // written as a real matrix of twice the order.
     let reduced = (2 * w * 2 * n + w * w + 4 * w * w) as u64;
     let (value, taken, why, left_out) = match method {
         Method::Radau5 => (true, "on independent coordinates", "is implicit", 0),
@@ -200,7 +200,8 @@ fn mobility(
     Decision::new(value, taken, reason)
 }
 
-/// A decision about a count, with one reason for zero and one for a positive count.
+/// Returns a decision about a count. There is one reason for zero and one reason for a positive
+/// count.
 fn counted(value: usize, [none, some]: [&str; 2], what: &str) -> Decision<usize> {
     match value {
         0 => Decision::new(0, "none", none),
@@ -246,8 +247,8 @@ fn of_time(sizes: &Sizes, work: &Work) -> Decision<usize> {
     Decision::new(value, taken, reason).saving(all - value as u64, all, Cost::TimeRows)
 }
 
-/// A decision on the number of items that are evaluated. The reason states why all items are
-/// evaluated, or why the others are not.
+/// Returns a decision on the number of items that are evaluated. The reason states why all items
+/// are evaluated, or why some items are not evaluated.
 fn evaluated(
     (value, all): (usize, usize),
     why_all: &str,

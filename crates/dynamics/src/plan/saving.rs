@@ -16,7 +16,7 @@ pub struct Saving {
 /// Work that can be omitted.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Cost {
-    /// Output rows: accurate dense output, projection.
+    /// Output rows, with accurate dense output and projection.
     Rows,
     /// Multiply-adds of the dense elimination in an evaluation.
     Elimination,
@@ -37,7 +37,7 @@ pub enum Cost {
 }
 
 impl Cost {
-    /// Name of the work, and how often it is done.
+    /// Returns the name of the work, and how often it is done.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {

@@ -31,19 +31,19 @@ impl Sizes {
         }
     }
 
-    /// Number of all rows.
+    /// Returns the number of all rows.
     #[must_use]
     pub fn rows(&self) -> usize {
         self.holonomic + self.nonholonomic
     }
 
-    /// Degrees of freedom n_v − r.
+    /// Returns the degrees of freedom n_v − r.
     #[must_use]
     pub fn mobility(&self) -> usize {
         self.velocities - self.rank
     }
 
-    /// Degree of redundancy m + h − r.
+    /// Returns the degree of redundancy m + h − r.
     #[must_use]
     pub fn redundancy(&self) -> usize {
         self.rows() - self.rank

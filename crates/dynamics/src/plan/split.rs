@@ -1,8 +1,8 @@
-//! Splits a prepared mechanism into prepared components. Each component uses its part of the rows
-//! that were decided at the start of the whole mechanism.
+//! Splits a prepared mechanism into prepared components. The rows were decided at the start of the
+//! whole mechanism. Each component uses the rows that belong to it.
 //!
 //! The redundant rows of a component are the redundant rows of the whole mechanism that belong to
-//! the component. Therefore one sentence describes the choice of rows.
+//! the component. Therefore one sentence is sufficient to describe the choice of rows.
 
 use model::start::scene_size;
 use model::{Assembly, Mechanism, Part, Places, System};
@@ -17,7 +17,8 @@ use crate::prepare::PreparedMechanism;
 /// A prepared part and its indices in the whole mechanism.
 type PreparedPart = (PreparedMechanism, Places);
 
-/// Whether the mechanism is split, and its components; empty if it is not split.
+/// Returns whether the mechanism is split, and its components. The list is empty if the mechanism
+/// is not split.
 pub(super) fn split(
     whole: &PreparedMechanism,
 ) -> Result<(Decision<bool>, Vec<PreparedPart>), MotionError> {
@@ -61,21 +62,21 @@ pub(super) fn split(
     Ok((decided, parts))
 }
 
-/// The decision that the mechanism is not split.
+/// Returns the decision that the mechanism is not split.
 pub(super) fn stays(reason: String) -> (Decision<bool>, Vec<PreparedPart>) {
     let decided = Decision::new(false, "solved as one", reason);
     (decided, Vec::new())
 }
 
-/// Multiply-adds of a dense elimination of r rows (or fewer) for n velocities and of the remaining
-/// matrix.
+/// Returns the multiply-adds of a dense elimination of r rows (or fewer) for n velocities, and of
+/// the elimination of the remaining matrix.
 pub(super) fn elimination(mechanism: &Mechanism, r: usize) -> u64 {
     let (n, r) = (mechanism.layout().n_v as u64, r as u64);
     let (k, free) = (r.min(n), n.saturating_sub(r));
     2 * r * n * k + 2 * k * k * k / 3 - (r + n) * k * k + free * free * n + free * free * free / 6
 }
 
-/// A part with the start and the rows of the whole mechanism.
+/// Returns a part with the start and the rows of the whole mechanism.
 fn prepared(whole: &PreparedMechanism, part: Part) -> PreparedPart {
     let Part { mechanism, places } = part;
     let (q, v) = (
@@ -115,13 +116,14 @@ fn prepared(whole: &PreparedMechanism, part: Part) -> PreparedPart {
     (own, places)
 }
 
-/// The rows of the whole mechanism that belong to a part, numbered in the part.
+/// Returns the rows of the whole mechanism that belong to a part. The rows have the numbers of the
+/// part.
 fn own_rows(rows: &[usize], places: &Places) -> Vec<usize> {
     let own = |row: &usize| places.rows.binary_search(row).ok();
     rows.iter().filter_map(own).collect()
 }
 
-/// The entries of a list of the whole mechanism that belong to a part.
+/// Returns the entries of a list of the whole mechanism that belong to a part.
 fn pick<T: Copy>(x: &[T], places: &[usize]) -> Vec<T> {
     places.iter().map(|&k| x[k]).collect()
 }

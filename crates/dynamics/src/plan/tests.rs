@@ -1,5 +1,5 @@
-//! Tests that a run does not do the work that its plan omits, and that components that run
-//! separately move as they do alone.
+//! Tests that a run does not do the work that its plan omits. They also test that components that
+//! run separately move as they move alone.
 
 mod driven;
 mod watched;
@@ -29,7 +29,8 @@ fn body(name: &str, position: [f64; 2]) -> Body {
     }
 }
 
-/// A pendulum of length 1 on a point `x` of the ground, at rest and horizontal.
+/// Adds a pendulum of length 1 at a point `x` of the ground. The pendulum is at rest and
+/// horizontal.
 fn pendulum(d: &mut Description, name: &str, x: f64) {
     let k = d.bodies.len();
     d.bodies.push(body(name, [x + 1.0, 0.0]));
@@ -42,7 +43,7 @@ fn pendulum(d: &mut Description, name: &str, x: f64) {
         .push(Joint::new(&name, &[GROUND, BodyRef::Body(k)], pin));
 }
 
-/// A mass on a damper that is stiff: ẍ = −10⁴·x − 10⁸·ẋ.
+/// Adds a mass on a stiff damper: ẍ = −10⁴·x − 10⁸·ẋ.
 fn stiff(d: &mut Description) {
     let k = d.bodies.len();
     d.bodies.push(body("stiff", [6.1, 0.0]));
@@ -227,8 +228,8 @@ fn rows_that_nobody_wants_are_not_computed() {
     assert!(stopped.t < 2.0 && rows == 1, "{} {rows}", stopped.t);
 }
 
-/// A run of a pendulum with interpolated rows takes the same steps, and these rows violate the
-/// hinge constraint by at most the tolerance.
+/// A run of a pendulum with interpolated rows takes the same steps. In these rows, the violation of
+/// the hinge constraint is at most the tolerance.
 #[test]
 fn interpolated_rows_are_those_on_the_constraints_to_the_tolerance() {
     let p = scene(|d| pendulum(d, "bob", 0.0));
@@ -260,7 +261,7 @@ fn interpolated_rows_are_those_on_the_constraints_to_the_tolerance() {
     assert!(0.0 < largest && largest < 1e-6, "{largest:e}");
 }
 
-/// A mass of 1 kg on a spring of 1 N/m, released at 1 m and at 10 µm: `x = x₀·cos t`. Runs with
+/// A mass of 1 kg on a spring of 1 N/m is released at 1 m and at 10 µm: `x = x₀·cos t`. Runs with
 /// default tolerances are accurate to 1e-7 and to a nanometre, respectively.
 #[test]
 fn motions_without_stated_tolerances_have_the_digits_that_are_read() {
@@ -345,7 +346,7 @@ fn components_move_as_they_do_alone_and_each_at_its_own_pace() {
 
 #[test]
 fn the_first_component_to_stop_stops_all() {
-    // An arm of length 1 rotates downwards, away from a rail at 0.8; its rod of length 1 reaches
+    // An arm of length 1 rotates downwards, away from a rail at 0.8. Its rod of length 1 touches
     // the rail as long as sin t < 0.2.
     let p = scene(|d| {
         pendulum(d, "bob", 0.0);
@@ -395,11 +396,12 @@ fn the_first_component_to_stop_stops_all() {
         0.15 < stopped && stopped < 0.2_f64.asin() + 1e-6,
         "{stopped}"
     );
-    // Every row before the failure remains valid: one each 0.05 s.
+    // All rows before the failure remain valid. There is one row every 0.05 s.
     assert_eq!(rows.len(), (stopped / 0.05).floor() as usize + 1);
 }
 
-/// Calls of the kernels of the first joint in a run with this plan, without the start.
+/// Returns the calls of the kernels of the first joint in a run with this plan, without the calls
+/// at the start.
 fn calls(
     build: impl FnOnce(&mut Description),
     options: &MotionOptions,
@@ -460,8 +462,8 @@ fn a_component_does_not_work_for_another() {
     assert!(with == alone, "{} and {} of C", with.c, alone.c);
 }
 
-/// A block on a rail through the ground with a slope of 0.6 in 1. A drive moves it along the rail,
-/// and a weight is suspended from the block.
+/// Adds a block on a rail through the ground. The slope of the rail is 0.6 in 1. A drive moves the
+/// block along the rail, and a weight is suspended from the block.
 fn guided(d: &mut Description) {
     let axis = Direction::new([0.8, 0.6]).expect("a direction");
     let [block, held, bob] = [0, 1, 2].map(BodyRef::Body);
@@ -555,8 +557,8 @@ fn too_many_components_stay_one() {
     assert!((fallen + 0.5 * 9.81).abs() < 1e-12, "{fallen}");
 }
 
-/// If there are too many free bodies for separate threads, they are solved together, without a
-/// matrix of all their velocities.
+/// If there are too many free bodies for separate threads, the bodies are solved together, without
+/// a matrix of all their velocities.
 #[test]
 fn free_bodies_take_memory_in_proportion() {
     let of = |count: usize| {

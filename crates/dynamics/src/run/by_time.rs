@@ -1,5 +1,5 @@
 //! The state as a function of time, for mechanisms without degrees of freedom. Stages are moved
-//! onto the constraint manifold, and no time is evaluated twice in a step.
+//! onto the constraint manifold, and no time of a step is evaluated twice.
 
 use crate::error::MotionFault;
 use crate::limits::REMEMBERED;
@@ -15,15 +15,16 @@ pub(super) struct ByTime {
 }
 
 impl ByTime {
-    /// Work memory for a run that evaluates derivatives as functions of time, otherwise `None`. It
-    /// is not used with generated code: then the interpreter is called only near singular
-    /// configurations, and the integrator determines the state.
+    /// Returns work memory for a run that evaluates derivatives as functions of time, and otherwise
+    /// `None`. The memory is not used with generated code. In this case the interpreter is called
+    /// only near singular configurations, and the integrator determines the state.
     pub(super) fn for_run(prepared: &PreparedMechanism, options: &MotionOptions) -> Option<Self> {
         let is_interpreted = prepared.code_for(options).is_err();
         (is_interpreted && prepared.is_function_of_time(options)).then(Self::default)
     }
 
-    /// The derivative at time t: the stored one, or the result of `evaluate`.
+    /// Returns the derivative at time t. The derivative is the stored derivative, or the result of
+    /// `evaluate`.
     pub(super) fn recall(
         &mut self,
         t: f64,
@@ -42,7 +43,7 @@ impl ByTime {
         Ok(())
     }
 
-    /// Copies the derivative at the end of a step if a stage was at this time; clears the stored
+    /// Copies the derivative at the end of a step if a stage was at this time. Clears the stored
     /// values.
     pub(super) fn take(&mut self, t: f64, dy: &mut [f64]) -> bool {
         let is_known = self.copy(t, dy);

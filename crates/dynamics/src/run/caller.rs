@@ -7,7 +7,7 @@ use integrators::{Cause, IntegrationError};
 use super::sample::Sample;
 use crate::error::{MotionError, MotionFault};
 
-/// Receives each row. It is a trait object, so that a run is compiled once, here, and not for each
+/// Receives each row. It is a trait object. Therefore a run is compiled only once, and not for each
 /// caller.
 pub(super) type ShowRow<'r> =
     dyn FnMut(&mut Sample<'_, '_>) -> Result<ControlFlow<()>, MotionFault> + 'r;
@@ -15,8 +15,8 @@ pub(super) type ShowRow<'r> =
 /// Receives the time (s) of each accepted step of each component, and may end the run.
 pub type Watch<'w> = dyn Fn(f64) -> ControlFlow<()> + Sync + 'w;
 
-/// Whether the caller wants a run to end. All threads of a run call this function at each
-/// evaluation, so that a run ends within a step; a call should cost no more than reading a flag.
+/// Returns whether the caller wants a run to end. All threads of a run call this function at each
+/// evaluation, so that a run ends within a step. A call should cost no more than reading a flag.
 pub type Stop<'w> = dyn Fn() -> bool + Sync + 'w;
 
 /// Returns the cause of a collapsed step size as the error, if the cause is an error of this crate.

@@ -1,5 +1,5 @@
-//! Simulates one component of a plan: integrates its equations, computes its output rows, and
-//! stores the reason if the simulation stops early.
+//! Simulates one component of a plan. The module integrates the equations of the component,
+//! computes its output rows, and stores the reason if the simulation stops early.
 
 use std::borrow::Cow;
 use std::time::Instant;
@@ -24,7 +24,7 @@ use crate::options::MotionOptions;
 use crate::plan::{self, ComponentPlan, Plan, Verdicts};
 use crate::prepare::PreparedMechanism;
 
-/// The failure of a run that has not started.
+/// Returns the failure of a run that has not started.
 pub(super) fn not_begun(error: MotionError) -> Box<Failure> {
     let summary = Summary::default();
     Box::new(Failure { error, summary })
@@ -134,8 +134,8 @@ pub(super) fn run_component(
     Err(Box::new(Failure { error, summary }))
 }
 
-/// The solver for the additional choices of a plan in one of its components; `None` if no choice or
-/// no reaction is requested.
+/// Returns the solver for the additional choices of a plan in one of its components. Returns `None`
+/// if no choice or no reaction is requested.
 fn carried_choices<'p>(
     plan: &Plan<'_>,
     component: &'p ComponentPlan<'_>,
@@ -158,8 +158,8 @@ fn carried_choices<'p>(
 }
 
 /// Checks before the run that no drive prescribes a motion that joints prevent. If a tolerance is
-/// stated, data within it may explain the violated joints, so the redundant rows would not show
-/// this contradiction during the run.
+/// stated, the violation of the joints may result from data within the tolerance. The redundant
+/// rows would then not show this contradiction during the run.
 fn drives_agree(prepared: &PreparedMechanism, t_end: f64) -> Result<(), MotionError> {
     if !prepared.may_miss {
         return Ok(());
@@ -171,8 +171,8 @@ fn drives_agree(prepared: &PreparedMechanism, t_end: f64) -> Result<(), MotionEr
     }
 }
 
-/// Rejects a start at which the constraints exclude, at second order, the acceleration that the
-/// loads cause.
+/// Returns an error for a start at which the constraints exclude, at second order, the acceleration
+/// that the loads cause.
 fn check_finite(prepared: &PreparedMechanism) -> Result<(), MotionError> {
     let (mechanism, decision) = (&prepared.mechanism, &prepared.decision);
     let layout = mechanism.layout();
@@ -187,8 +187,8 @@ fn check_finite(prepared: &PreparedMechanism) -> Result<(), MotionError> {
             mechanism.pose(0.0, q, &mut s);
             mechanism.phi(&mut s);
             mechanism.c(&mut s);
-            // Rows that are redundant only within a stated tolerance do not count as redundant
-            // here.
+            // Rows that are redundant only within a stated tolerance do not count as redundant in
+            // this decision.
             match decide_dropping(mechanism, &s, q, &decision.dropped) {
                 Ok(decision) => Cow::Owned(decision),
                 Err(_) => return Ok(()),
@@ -203,14 +203,14 @@ fn check_finite(prepared: &PreparedMechanism) -> Result<(), MotionError> {
 }
 
 /// If drives contradict each other or prescribe a motion that joints prevent, these drives are
-/// reported as the cause of a violated redundant row, whichever row was redundant.
+/// reported as the cause of a violated redundant row. This rule applies to any redundant row.
 fn of_drives(prepared: &PreparedMechanism, t_end: f64, error: MotionError) -> MotionError {
     let MotionError::Fault(MotionFault::DroppedRow { time, .. }) = &error else {
         return error;
     };
     let mechanism = &prepared.mechanism;
-    // Drives whose values barely differ at this time are compared at a later time, at which they
-    // differ clearly.
+    // Drives whose values barely differ at this time are compared at a later time, at which their
+    // values differ clearly.
     match contradicting_drives_along(mechanism, &prepared.q, t_end).unwrap_or_default() {
         Some(contradiction) => MotionFault::Drives {
             time: *time,
@@ -221,8 +221,8 @@ fn of_drives(prepared: &PreparedMechanism, t_end: f64, error: MotionError) -> Mo
     }
 }
 
-/// If drives prescribe values that no configuration near the last state can reach, reports these
-/// drives as the cause of the stop, whatever was found first.
+/// If drives prescribe values that no configuration near the last state can reach, these drives are
+/// reported as the cause of the stop. This rule applies even if another cause was found first.
 fn at_drive_limit(
     prepared: &PreparedMechanism,
     (t, y): (f64, &[f64]),
@@ -259,7 +259,7 @@ fn at_drive_limit(
     }
 }
 
-/// Checks whether a violated redundant row is redundant at the start only, because the start is
+/// Checks whether a violated redundant row is redundant only at the start, because the start is
 /// singular.
 fn at_singular_start(prepared: &PreparedMechanism, error: MotionError) -> MotionError {
     let MotionError::Fault(MotionFault::DroppedRow {
@@ -285,7 +285,7 @@ fn at_singular_start(prepared: &PreparedMechanism, error: MotionError) -> Motion
     }
 }
 
-/// The times of the output rows.
+/// Returns the times of the output rows.
 fn output_times(plan: &Plan<'_>) -> OutputTimes {
     let t_end = plan.options().t_end;
     match plan.rows.value {

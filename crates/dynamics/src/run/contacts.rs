@@ -13,14 +13,14 @@ use crate::limits::{OPENING_SEARCH, OPENING_TIME};
 /// The one-sided joints of a run.
 pub(super) struct RunContacts {
     joints: CarriedContacts,
-    /// Longest time between two states at which they are examined (s). Forces that do not move any
-    /// body do not shorten the steps.
+    /// Longest time (s) between two states at which the joints are examined. Forces that do not
+    /// move any body do not shorten the steps.
     every: f64,
 }
 
 impl RunContacts {
-    /// Returns the one-sided joints, which are examined at steps and as often as there are output
-    /// rows; `None` if there are none.
+    /// Returns the one-sided joints, or `None` if there are no such joints. The joints are examined
+    /// at steps and as often as there are output rows.
     pub(super) fn of(mechanism: &Mechanism, output_step: f64) -> Option<Self> {
         let joints = CarriedContacts::of(mechanism)?;
         Some(Self {
@@ -40,7 +40,8 @@ pub(super) struct Opening {
     pub(super) fault: MotionFault,
 }
 
-/// Returns the state within an accepted step at which one-sided joints open, if they do.
+/// Returns the state within an accepted step at which one-sided joints open, if one-sided joints
+/// open in the step.
 pub(super) fn opening(
     step: &mut Step<'_, RunEquations<'_>>,
 ) -> Result<Option<Opening>, MotionFault> {
@@ -125,7 +126,7 @@ pub(super) fn opening_at_start(
 }
 
 impl RunEquations<'_> {
-    /// Whether a joint is one-sided.
+    /// Returns whether a joint is one-sided.
     pub(super) fn has_contacts(&self) -> bool {
         self.contacts.is_some()
     }
@@ -155,7 +156,7 @@ impl RunEquations<'_> {
     }
 
     /// Decides whether these multipliers, with any self-stress, press on all one-sided joints. The
-    /// rows are factored. `size` is the size of the loads.
+    /// rows must be factored. `size` is the size of the loads.
     fn closure_for(&mut self, multipliers: &[f64], size: f64) -> Result<Closure, MotionFault> {
         let mechanism = self.motion.mechanism();
         let equations = &mut self.motion.equations;

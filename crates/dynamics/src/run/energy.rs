@@ -1,5 +1,5 @@
-//! The energy balance of a run: kinetic energy and potential of the weight, compared with the
-//! computed work.
+//! The energy balance of a run. The kinetic energy and the potential of the weight are compared
+//! with the computed work.
 
 use model::Mechanism;
 
@@ -36,7 +36,8 @@ impl EnergyBalance {
         self.rounding = larger(self.rounding, rounding(mechanism, q));
     }
 
-    /// The largest energy error (J); zero for a motion at rest, for which it is a rounding error.
+    /// Returns the largest energy error (J). The result is zero for a motion at rest, for which the
+    /// error is a rounding error.
     pub(super) fn largest_gap(&self) -> f64 {
         if self.largest_gap.max(self.largest_kinetic) <= self.rounding {
             0.0
@@ -45,13 +46,13 @@ impl EnergyBalance {
         }
     }
 
-    /// The largest kinetic energy (J).
+    /// Returns the largest kinetic energy (J).
     pub(super) fn largest_kinetic(&self) -> f64 {
         self.largest_kinetic
     }
 }
 
-/// Rounding error of the potential of the weight at q (J).
+/// Returns the rounding error of the potential of the weight at q (J).
 fn rounding(mechanism: &Mechanism, q: &[f64]) -> f64 {
     let space = mechanism.space();
     let of_body = |body: usize| -> f64 {
@@ -66,13 +67,13 @@ fn rounding(mechanism: &Mechanism, q: &[f64]) -> f64 {
     ENERGY_ROUNDINGS * f64::EPSILON * all
 }
 
-/// The larger of two values; NaN, which results from an overflowing energy, counts as the largest
-/// value.
+/// Returns the larger of two values. NaN counts as the largest value; it results from an
+/// overflowing energy.
 pub(super) fn larger(a: f64, b: f64) -> f64 {
     if b > a || b.is_nan() { b } else { a }
 }
 
-/// An energy error relative to a kinetic energy; zero if both are zero.
+/// Returns an energy error relative to a kinetic energy, or zero if both are zero.
 pub(super) fn relative(gap: f64, kinetic: f64) -> f64 {
     if gap > 0.0 || gap.is_nan() {
         gap / kinetic

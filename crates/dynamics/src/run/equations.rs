@@ -1,5 +1,6 @@
 //! The differential equation of a run: y = [q; v], and the work of drives and applied forces if
-//! there are any. Steps are projected. If a rate jumps, the velocities also jump.
+//! there are drives or applied forces. Steps are projected. If a rate jumps, the velocities also
+//! jump.
 //!
 //! All methods integrate this state. For implicit methods f reads only the independent entries of y
 //! (`reduced`). Projection, dense output, output rows and changes of the independent coordinates
@@ -35,8 +36,8 @@ use crate::watch::{Next, Now, are_delicate};
 pub(super) enum Leader {
     /// The method of the run integrates throughout.
     Alone,
-    /// The method of the run integrates up to a singular configuration; `is_due` if a step has
-    /// reached one without a prediction.
+    /// The method of the run integrates up to a singular configuration. `is_due` is true if a step
+    /// has reached a singular configuration without a prediction.
     HandsOver { is_due: bool },
     /// The method that steps over singular configurations integrates.
     Passes,
@@ -60,9 +61,9 @@ pub(super) struct RunEquations<'m> {
     until: EndCondition<'m>,
     passing: Passing,
     /// Whether stages of the current step were evaluated by generated code that is no longer in
-    /// use; then the step starts again.
+    /// use. In this case the step starts again.
     is_void: bool,
-    /// The fault of the external function that ended the run because it returned no value.
+    /// The fault of an external function that returned no value and therefore ended the run.
     pub(super) failed: Option<MotionFault>,
     /// Derivatives as functions of time, for a mechanism without degrees of freedom.
     by_time: Option<ByTime>,
@@ -95,7 +96,7 @@ struct Scratch {
 }
 
 impl<'m> RunEquations<'m> {
-    /// The equations of a motion at its start, at which the rows are factored.
+    /// Creates the equations of a motion at its start, at which the rows are factored.
     pub(super) fn new(
         motion: KeptRowMotion<'m>,
         prepared: &PreparedMechanism,
@@ -146,26 +147,27 @@ impl<'m> RunEquations<'m> {
         equations
     }
 
-    /// The constraint violations of redundant rows so far.
+    /// Returns the constraint violations of redundant rows so far.
     pub(super) fn misfits(&self) -> Vec<Misfit> {
         let misfits = self.motion.equations.misfits.as_ref();
         misfits.map_or_else(Vec::new, |m| m.found().to_vec())
     }
 
-    /// y at the start, before any evaluation.
+    /// Returns y at the start, before any evaluation.
     pub(super) fn y0(&self) -> Vec<f64> {
         self.scratch.stage.clone()
     }
 
-    /// Whether stages are functions of time. Near a singular configuration, at which branches meet,
-    /// the stages follow the integrator instead.
+    /// Returns whether stages are functions of time. Near a singular configuration, at which
+    /// branches meet, the stages instead follow the integrator.
     fn is_by_time(&self) -> bool {
         self.by_time.is_some() && self.motion.watch.delicate_time().is_none()
     }
 
-    /// Whether the next stages must be moved onto the constraint manifold: near singular
-    /// configurations, and if this makes the stages functions of time. With independent
-    /// coordinates, all stages satisfy the constraints; without projection, no stage is moved.
+    /// Returns whether the next stages must be moved onto the constraint manifold. The stages must
+    /// be moved near singular configurations, and if the move makes the stages functions of time.
+    /// With independent coordinates, all stages satisfy the constraints. Without projection, no
+    /// stage is moved.
     fn wants_care(&self) -> bool {
         let motion = &self.motion;
         let off = motion.manifold.projects() && motion.independent().is_none();
@@ -190,7 +192,7 @@ impl<'m> RunEquations<'m> {
         self.passing.is_careful = self.wants_care();
     }
 
-    /// Whether another method must continue after an accepted step over these times.
+    /// Returns whether another method must continue after an accepted step over these times.
     pub(super) fn hands_over(&self, [t0, t]: [f64; 2]) -> bool {
         let delicate = self.motion.watch.delicate_time();
         // Explicit steps up to the singular configuration would be far shorter than implicit steps.
@@ -208,8 +210,9 @@ impl<'m> RunEquations<'m> {
         hands_over && !self.is_break(t)
     }
 
-    /// The work is computed without error control: its error has no weight. It still counts as a
-    /// component of the mean error; this loosens the control by the factor √((n + 1)/n).
+    /// The work is computed without error control, because its error has no weight. The work still
+    /// counts as a component of the mean error, which loosens the control by the factor √((n +
+    /// 1)/n).
     pub(super) fn tolerance(&self, options: &MotionOptions) -> Tolerance {
         let (rtol, atol) = (options.rtol, options.atol);
         let moving = self.motion.parts(&self.scratch.stage);
@@ -223,8 +226,8 @@ impl<'m> RunEquations<'m> {
         Tolerance::PerComponent { rtol, atol }
     }
 
-    /// Projects an output row, if states are projected, and passes it to the caller. At a break
-    /// time it is the state just before.
+    /// Passes an output row to the caller. The row is projected if states are projected. At a break
+    /// time the row is the state just before the break time.
     pub(super) fn show(
         &mut self,
         t: f64,
@@ -237,8 +240,8 @@ impl<'m> RunEquations<'m> {
             t
         };
         let (q, v, _) = self.motion.parts_mut(y);
-        // If the motion uses independent coordinates, only these are interpolated; generated code
-        // uses its own coordinates.
+        // If the motion uses independent coordinates, only these coordinates are interpolated.
+        // Generated code uses its own coordinates.
         let is_whole = self.motion.independent().is_none() && !self.motion.is_on_code();
         self.lead_completion(t);
         let found = if self.wanted.on_constraints || !is_whole {
@@ -292,7 +295,7 @@ impl<'m> RunEquations<'m> {
         shown
     }
 
-    /// The motion and its linear systems.
+    /// Returns the motion and its linear systems.
     fn implicit(&mut self) -> (&mut KeptRowMotion<'m>, &mut ReducedJacobian) {
         let new = || ReducedJacobian::new(&self.motion);
         let reduced = self.reduced.get_or_insert_with(new);
@@ -348,23 +351,23 @@ impl<'m> RunEquations<'m> {
         looked
     }
 
-    /// Whether verdicts are computed during the run.
+    /// Returns whether verdicts are computed during the run.
     pub(super) fn reads_verdicts(&self) -> bool {
         self.verdicts.as_ref().is_some_and(RunVerdicts::may_change)
     }
 
-    /// Whether verdicts are computed at the end of the accepted step.
+    /// Returns whether verdicts are computed at the end of the accepted step.
     pub(super) fn reads_verdicts_at_step(&self) -> bool {
         let verdicts = self.verdicts.as_ref();
         verdicts.is_some_and(RunVerdicts::are_wanted_at_step)
     }
 
-    /// Number of events so far.
+    /// Returns the number of events so far.
     pub(super) fn events(&self) -> usize {
         self.record.events.len()
     }
 
-    /// The verdicts up to this time, and the rows without multiplier.
+    /// Returns the verdicts up to this time, and the rows without multiplier.
     pub(super) fn finish_verdicts(
         &mut self,
         groups: &[Group],
@@ -374,8 +377,8 @@ impl<'m> RunEquations<'m> {
         Some(verdicts.finish(&self.motion, groups, to))
     }
 
-    /// The reason why the step size has collapsed at time t, if there is one: a singular
-    /// configuration nearby, or a redundant row.
+    /// Returns the reason why the step size has collapsed at time t, if there is a reason. The
+    /// reason is a singular configuration nearby, or a redundant row.
     pub(super) fn cause(
         &mut self,
         error: &IntegrationError<MotionFault>,
@@ -383,8 +386,8 @@ impl<'m> RunEquations<'m> {
     ) -> Option<MotionFault> {
         let motion = &mut self.motion;
         match error {
-            // Error control fails near a singular configuration, because accelerations are rounding
-            // errors there.
+            // Error control fails near a singular configuration, because accelerations near it are
+            // rounding errors.
             IntegrationError::StepSizeCollapsed { .. }
                 if are_delicate(&motion.equations.velocity) =>
             {
@@ -396,7 +399,7 @@ impl<'m> RunEquations<'m> {
     }
 
     /// If the motion stopped using generated code, the interpreter continues from the last accepted
-    /// state as if it had computed this state.
+    /// state. The interpreter continues as if it had computed this state.
     fn note_departure(&mut self) {
         let motion = &mut self.motion;
         if let Some(code) = &mut motion.code
@@ -427,7 +430,7 @@ impl<'m> RunEquations<'m> {
         }
     }
 
-    /// f(t, y) by the interpreter.
+    /// Computes f(t, y) by the interpreter.
     fn evaluate(&mut self, t: f64, y: &[f64], dy: &mut [f64]) -> Result<(), MotionFault> {
         self.lead_completion(t);
         if !self.passing.is_careful {
@@ -449,7 +452,7 @@ impl<'m> RunEquations<'m> {
         times.binary_search_by(|b| b.total_cmp(&t)).is_ok()
     }
 
-    /// Ends a step that passed its error test, if it can be accepted.
+    /// Ends a step that passed its error test if the step can be accepted.
     fn end(&mut self, step: &StepInfo<'_>, y: &mut [f64], dy: &mut [f64]) -> Result<StepEnd, Next> {
         self.scratch.before.copy_from_slice(y);
         let known = self.by_time.as_mut();
@@ -555,14 +558,14 @@ impl<'m> RunEquations<'m> {
     }
 }
 
-/// The state y with the accelerations of dy.
+/// Returns the state y with the accelerations of dy.
 fn now<'a>(mechanism: &Mechanism, t: f64, y: &'a [f64], dy: &'a [f64]) -> Now<'a> {
     let (n_q, n_v) = (mechanism.layout().n_q, mechanism.layout().n_v);
     let (q, v, a) = (&y[..n_q], &y[n_q..n_q + n_v], &dy[n_q..n_q + n_v]);
     Now { t, q, v, a }
 }
 
-/// Work of drives and applied forces (J), if y contains the work.
+/// Returns the work of drives and applied forces (J) if y contains the work.
 fn work(q: &[f64], v: &[f64], y: &[f64]) -> f64 {
     y.get(q.len() + v.len()).copied().unwrap_or(0.0)
 }

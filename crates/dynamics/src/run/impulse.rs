@@ -1,9 +1,9 @@
 //! If the prescribed rate of a drive jumps, an impulse of the constraints changes the velocities.
-//! The change is the smallest one in the mass metric that satisfies the new rates. A jump of the
-//! prescribed position itself would need an infinite force and is rejected.
+//! The change is the smallest change in the mass metric that satisfies the new rates. A jump of the
+//! prescribed position would need an infinite force and is rejected.
 //!
 //! The energy of the impulse is part of the energy balance and is reported as an event. Output rows
-//! at a break time contain the values just before it.
+//! at a break time contain the values just before the break time.
 
 use model::System;
 
@@ -22,12 +22,12 @@ pub(crate) struct Impulse {
     pub(crate) event: Event,
 }
 
-/// Computes the velocities just after a break time from the velocities just before it; t is just
-/// after it.
+/// Computes the velocities just after a break time from the velocities just before it. The time t
+/// is just after the break time.
 ///
 /// # Errors
-/// [`MotionFault::PositionJump`] if a constraint requires another position; otherwise as
-/// [`crate::KeptRowMotion::project`].
+/// Returns [`MotionFault::PositionJump`] if a constraint requires another position. Otherwise
+/// returns the same errors as [`crate::KeptRowMotion::project`].
 pub(super) fn cross_break(
     motion: &mut KeptRowMotion<'_>,
     t: f64,
@@ -88,7 +88,8 @@ pub(super) fn cross_break(
     }))
 }
 
-/// Change of Φ and C·v − b for a fixed state between two times; only functions of time cause it.
+/// Returns the change of Φ and C·v − b for a fixed state between two times. Only functions of time
+/// cause this change.
 fn change(at: &mut Evaluation<'_>, times: [f64; 2], q: &[f64], v: &[f64]) -> [Vec<f64>; 2] {
     let [[phi_from, rate_from], [phi, rate]] = times.map(|t| {
         at.pose_and_phi(t, q);

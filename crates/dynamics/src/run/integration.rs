@@ -1,10 +1,12 @@
-//! The integration of one component: its method, and another method over singular configurations.
+//! The integration of one component: the method of the component, and another method over singular
+//! configurations.
 //!
-//! Near a singular configuration, accelerations are quotients of two small values, so the step over
-//! the configuration must start and end as far away as possible. `dop853` makes the longest steps
-//! over it. Implicit methods cannot step over it at all, because their coordinates become
-//! dependent. Therefore every other method stops before a predicted singular configuration,
-//! `dop853` steps over it, and the method of the run continues after it.
+//! Near a singular configuration, accelerations are quotients of two small values. Therefore the
+//! step over the configuration must start and end as far away as possible. The method `dop853`
+//! makes the longest steps over the configuration. Implicit methods cannot step over the
+//! configuration at all, because their coordinates become dependent. Therefore every other method
+//! stops before a predicted singular configuration. The method `dop853` steps over the
+//! configuration, and the method of the run continues after it.
 
 use std::ops::ControlFlow;
 
@@ -36,7 +38,7 @@ pub(super) struct Run<'r, 'm> {
 type IntegrationResult = Result<Outcome, Box<integrators::Failure<MotionFault>>>;
 
 impl<'r, 'm> Run<'r, 'm> {
-    /// A run that has not started.
+    /// Creates a run that has not started.
     pub(super) fn new(
         equations: RunEquations<'m>,
         rows: Rows,
@@ -129,7 +131,7 @@ impl<'r, 'm> Run<'r, 'm> {
         rows.start(equations, y0, |e, t, y| show(e, (t, y), row, stopped))
     }
 
-    /// Integrates until the end, or until another method must continue; returns whether another
+    /// Integrates until the end, or until another method must continue. Returns whether another
     /// method must continue.
     fn stretch<M: integrators::Method<RunEquations<'m>>>(
         &mut self,
@@ -202,8 +204,8 @@ impl<'r, 'm> Run<'r, 'm> {
     }
 }
 
-/// Computes the verdicts at an accepted step: at its ends and between its events, which are the
-/// events from `first_event` on.
+/// Computes the verdicts at an accepted step, at its ends and between its events. The events of the
+/// step are the events from `first_event` on.
 fn judge_ahead(
     step: &mut integrators::Step<'_, RunEquations<'_>>,
     first_event: usize,
@@ -227,7 +229,7 @@ fn judge_ahead(
     Ok(())
 }
 
-/// Passes a row to the caller; a fault ends the run.
+/// Passes a row to the caller. A fault ends the run.
 fn show(
     equations: &mut RunEquations<'_>,
     (t, y): (f64, &mut [f64]),

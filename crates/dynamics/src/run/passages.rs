@@ -1,5 +1,5 @@
-//! Records the singular configurations that the steps of a run have passed: their times, the loss
-//! of rank, and whether the motion is unique there.
+//! Records the singular configurations that the steps of a run have passed. The record contains
+//! their times, the loss of rank, and whether the motion is unique at each configuration.
 
 use integrators::Step;
 use model::System;
@@ -9,7 +9,7 @@ use super::equations::RunEquations;
 use crate::limits::{BESIDE, JUDGED_MOST, MOST_PASSAGES, PASSAGE_STATES};
 use crate::watch::{Singular, SingularitySearch};
 
-/// Searches an accepted step for singular configurations, if it may contain one.
+/// Searches an accepted step for singular configurations if the step may contain one.
 pub(super) fn note(step: &mut Step<'_, RunEquations<'_>>) {
     if !step.ode().motion.watch.is_suspect {
         return;
@@ -52,8 +52,8 @@ pub(super) fn note(step: &mut Step<'_, RunEquations<'_>>) {
     }
 }
 
-/// The singular configurations within a step, in order. After one is found, both sides of it are
-/// searched as well.
+/// Returns the singular configurations within a step, in order. After a configuration is found,
+/// both sides of it are searched as well.
 fn found(step: &mut Step<'_, RunEquations<'_>>) -> Vec<Singular> {
     let noise = step.ode().motion.watch.nearest();
     let mut search = SingularitySearch::new(&step.ode().motion.equations);
@@ -87,7 +87,7 @@ fn found(step: &mut Step<'_, RunEquations<'_>>) -> Vec<Singular> {
     found
 }
 
-/// Result of the second-order test of a singular configuration within a step.
+/// Returns the result of the second-order test of a singular configuration within a step.
 fn judge(step: &mut Step<'_, RunEquations<'_>>) -> Option<String> {
     let mechanism = step.ode().motion.mechanism();
     let (n_q, n_v) = (mechanism.layout().n_q, mechanism.layout().n_v);

@@ -1,5 +1,5 @@
-//! Limits the number of threads that compute at the same time; the others wait until a thread
-//! pauses.
+//! Limits the number of threads that compute at the same time. Other threads wait until a computing
+//! thread pauses.
 
 use std::num::NonZeroUsize;
 use std::sync::{Condvar, Mutex, MutexGuard, PoisonError};
@@ -11,7 +11,7 @@ pub(super) struct Permits {
 }
 
 impl Permits {
-    /// A given number of permits, or unlimited.
+    /// Creates a given number of permits, or unlimited permits.
     pub(super) fn new(n: Option<NonZeroUsize>) -> Self {
         Self {
             free: Mutex::new(n.map_or(usize::MAX / 2, NonZeroUsize::get)),
@@ -35,7 +35,7 @@ impl Permits {
     }
 }
 
-/// A permit; dropping it returns it.
+/// A permit. Dropping the permit returns it.
 pub(super) struct Permit<'p> {
     all: &'p Permits,
     is_held: bool,

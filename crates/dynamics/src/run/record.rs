@@ -24,7 +24,7 @@ pub(super) struct Record {
 }
 
 impl Record {
-    /// The record at the start of a run.
+    /// Creates the record at the start of a run.
     pub(super) fn new(mechanism: &Mechanism, q: &[f64], v: &[f64]) -> Self {
         Self {
             energy: EnergyBalance::new(mechanism, q, v),
@@ -52,13 +52,14 @@ impl Record {
         }
     }
 
-    /// The recorded uniqueness at singular configurations with this number of dependent rows.
+    /// Returns the recorded uniqueness at singular configurations with this number of dependent
+    /// rows.
     pub(super) fn uniqueness_of(&self, dependent: usize) -> Option<&str> {
         let known = self.uniqueness.iter().find(|(d, _)| *d == dependent);
         known.map(|(_, words)| words.as_str())
     }
 
-    /// The summary, without the counts of the integrator.
+    /// Returns the summary, without the counts of the integrator.
     pub(super) fn summary(&self) -> Summary {
         let (gap, kinetic) = (self.energy.largest_gap(), self.energy.largest_kinetic());
         Summary {

@@ -1,9 +1,9 @@
 //! The Jacobian of the motion on independent coordinates, and the linear systems of implicit
 //! methods.
 //!
-//! The function `f(y) = F(P·y)` depends only on w = [z; u], so `∂f/∂y = D·S`. S reads w from y (if
-//! q̇ = v it selects entries), and D has a column for each entry of w. Implicit differentiation,
-//! with the factors that also solve the equations of motion, gives:
+//! The function `f(y) = F(P·y)` depends only on w = [z; u], so `∂f/∂y = D·S`. S computes w from y
+//! (if q̇ = v it selects entries), and D has a column for each entry of w. D is computed by
+//! implicit differentiation, with the factors that also solve the equations of motion:
 //!
 //! | | equation |
 //! | --- | --- |
@@ -12,12 +12,13 @@
 //! | accelerations | `M·da + Cᵀ·dλ = ∂(Q − Cᵀ·λ)/∂q·dq + ∂Q/∂v·dv`, `C·da = −∂(C·a − Γ)/∂q·dq + ∂Γ/∂v·dv` |
 //!
 //! The system `(σ·I − D·S)·x = r` needs only a factorisation of the order of w, `(σ·I − S·D)·x_w =
-//! r_w`. The dependent entries of x are only estimates for completions, so they follow from x_w
-//! like the dependent entries of dq and dv. The exact solution, `σ·x = r + D·x_w`, is not used for
-//! these entries. The exact solution would include stiff forces in the dependent directions,
-//! amplified by the lever arms of the mechanism. Then the method would fail to converge although w
-//! has converged. Along the normals of the coordinates, along which no pose changes, f does not
-//! depend on y; the exact solution `σ·x = r` is used along these normals.
+//! r_w`. The dependent entries of x are only estimates for completions. These entries are therefore
+//! computed from x_w like the dependent entries of dq and dv. The exact solution, `σ·x = r +
+//! D·x_w`, is not used for these entries. The exact solution would include stiff forces in the
+//! dependent directions, amplified by the lever arms of the mechanism. The method would then fail
+//! to converge although w has converged. No pose changes along the normals of the coordinates, so f
+//! does not depend on y along these normals. The exact solution `σ·x = r` is used along the
+//! normals.
 
 use linalg::{Lu, Matrix};
 use model::{Derivatives, Mechanism, System};
@@ -55,14 +56,14 @@ pub struct ReducedJacobian {
     /// Work memory, allocated at the first use.
     derivatives: Option<Derivatives>,
     partition: ReducedCoordinates,
-    /// Row j: column j of D.
+    /// Row j contains column j of D.
     columns: Matrix,
     /// The product S·D.
     on_w: Matrix,
-    /// Row j: change of y with w_j along the constraint manifold, without the entries on which no
-    /// rate depends.
+    /// Row j contains the change of y with w_j along the constraint manifold, without the entries
+    /// on which no rate depends.
     tangents: Matrix,
-    /// Row j: the displacements of tangent j along the columns of C, n_v.
+    /// Row j contains the displacements of tangent j along the columns of C, n_v values.
     displacements: Matrix,
     /// Time of the Jacobian.
     time: f64,
@@ -80,23 +81,23 @@ struct ReducedCoordinates {
     /// independent.
     z: Vec<usize>,
     u: Vec<usize>,
-    /// Row j of S: entry j of w, as indices into y with coefficients.
+    /// Row j of S contains entry j of w, as indices into y with coefficients.
     reads: Vec<Vec<(usize, f64)>>,
     /// Directions of y along which no pose changes.
     normals: Vec<Vec<(usize, f64)>>,
-    /// Entries of y on which no rate depends, each with its own equation: unwrapped angles, of
-    /// which only the revolutions are used, and the work.
+    /// Entries of y on which no rate depends. Each of these entries has its own equation. The
+    /// entries are the work, and the unwrapped angles, of which only the revolutions are used.
     quadratures: Vec<usize>,
 }
 
-/// `σ·I − S·D` for a real σ and a complex one, factored.
+/// The factored matrices `σ·I − S·D` for a real σ and a complex σ.
 struct ShiftedFactors {
     real: Lu,
     /// Factors of the real form [αI − S·D, −βI; βI, αI − S·D].
     complex: Lu,
     shift: f64,
     complex_shift: [f64; 2],
-    /// Solutions for w, real and imaginary parts.
+    /// Solutions for w, as real and imaginary parts.
     w: Vec<f64>,
 }
 
@@ -122,7 +123,7 @@ impl ReducedCoordinates {
 }
 
 impl ShiftedFactors {
-    /// Work memory for k entries of w.
+    /// Allocates work memory for k entries of w.
     fn new(k: usize) -> Self {
         Self {
             real: Lu::new(k),
@@ -135,7 +136,7 @@ impl ShiftedFactors {
 }
 
 impl ReducedJacobian {
-    /// Allocates memory for a motion; the Jacobian is not yet evaluated.
+    /// Allocates memory for a motion. The Jacobian is not yet evaluated.
     #[must_use]
     pub fn new(motion: &KeptRowMotion<'_>) -> Self {
         note(WorkKind::LinearSystems);
@@ -161,12 +162,12 @@ impl ReducedJacobian {
         }
     }
 
-    /// Evaluates the Jacobian at t and y; y is completed first. A motion on all coordinates is
-    /// switched to independent ones.
+    /// Evaluates the Jacobian at t and y. The state y is completed first. A motion on all
+    /// coordinates is switched to independent coordinates.
     ///
     /// # Errors
-    /// Returns the same errors as [`KeptRowMotion::derivative`], and
-    /// [`MotionFault::NoDerivatives`]: a force calls an external function.
+    /// Returns the same errors as [`KeptRowMotion::derivative`], and [`MotionFault::NoDerivatives`]
+    /// if a force calls an external function.
     ///
     /// # Panics
     /// Panics if y is shorter than n_q + n_v.
@@ -218,7 +219,7 @@ impl ReducedJacobian {
     }
 
     /// Linearises and factors again if the partition changed at the start of the step. After such a
-    /// change f is another function of y, although the motion is the same.
+    /// change, f is a different function of y, although the motion is the same.
     ///
     /// # Errors
     /// Returns the same errors as [`ReducedJacobian::linearise`] and [`ReducedJacobian::factor`].
@@ -237,8 +238,8 @@ impl ReducedJacobian {
             if coordinates.bases != own.base {
                 let (mechanism, q) = (motion.mechanism(), &coordinates.base);
                 own.read_from(mechanism, q, coordinates.bases);
-                // The Jacobian in terms of rotations remains valid; only the quaternions have
-                // changed.
+                // The Jacobian in terms of rotations remains valid, because only the quaternions
+                // have changed.
                 for j in 0..own.reads.len() {
                     let tangent = &mut self.tangents.row_mut(j)[..q.len()];
                     mechanism.rate(q, self.displacements.row(j), tangent);
@@ -253,13 +254,13 @@ impl ReducedJacobian {
         self.factor(self.shifted.shift, self.shifted.complex_shift)
     }
 
-    /// `∂ẇ/∂w`, dense.
+    /// Returns the dense matrix `∂ẇ/∂w`.
     #[must_use]
     pub fn jacobian(&self) -> &Matrix {
         &self.on_w
     }
 
-    /// `∂f/∂w`, dense; allocates.
+    /// Returns the dense matrix `∂f/∂w`. The function allocates memory.
     #[must_use]
     pub fn columns(&self) -> Matrix {
         self.columns.transpose()
@@ -368,10 +369,10 @@ impl ReducedJacobian {
         Ok(())
     }
 
-    /// Factors `σ·I − ∂f/∂y` for a real σ and a complex one, `[Re σ, Im σ]`.
+    /// Factors `σ·I − ∂f/∂y` for a real σ and a complex σ, `[Re σ, Im σ]`.
     ///
     /// # Errors
-    /// [`MotionFault::IterationMatrix`] if a matrix is singular.
+    /// Returns [`MotionFault::IterationMatrix`] if a matrix is singular.
     pub fn factor(&mut self, real: f64, complex: [f64; 2]) -> Result<(), MotionFault> {
         let (k, time, on_w) = (self.partition.reads.len(), self.time, &self.on_w);
         let own = &mut self.shifted;
@@ -395,8 +396,8 @@ impl ReducedJacobian {
         Ok(())
     }
 
-    /// Solves `(σ·I − ∂f/∂y)·x = r` for the real σ; `x` contains r at the call. Dependent entries
-    /// follow from the independent ones.
+    /// Solves `(σ·I − ∂f/∂y)·x = r` for the real σ. On entry, `x` contains r. Dependent entries are
+    /// computed from the independent entries.
     pub fn solve(&mut self, x: &mut [f64]) {
         let Self {
             partition, shifted, ..
@@ -418,7 +419,7 @@ impl ReducedJacobian {
         }
     }
 
-    /// Like [`Self::solve`], for the complex σ.
+    /// Works like [`Self::solve`], for the complex σ.
     pub fn solve_complex(&mut self, re: &mut [f64], im: &mut [f64]) {
         let Self {
             partition, shifted, ..
@@ -450,7 +451,7 @@ impl ReducedJacobian {
         }
     }
 
-    /// Change along w of the rate of an entry on which no rate depends.
+    /// Returns the change along w of the rate of an entry on which no rate depends.
     fn rate_along(&self, w: &[f64], at: usize) -> f64 {
         w.iter()
             .enumerate()
@@ -458,7 +459,7 @@ impl ReducedJacobian {
             .sum()
     }
 
-    /// `x ← Σ w_j·(tangent j) + Σ factor_k·(normal k)`
+    /// Computes `x ← Σ w_j·(tangent j) + Σ factor_k·(normal k)`.
     fn follow(&self, w: &[f64], factors: &[f64], x: &mut [f64]) {
         x.fill(0.0);
         for (j, &w) in w.iter().enumerate() {
@@ -474,7 +475,7 @@ impl ReducedJacobian {
     }
 }
 
-/// Work memory for the derivatives that implicit methods need.
+/// Allocates work memory for the derivatives that implicit methods need.
 pub(crate) fn derivatives(mechanism: &Mechanism) -> Result<Derivatives, MotionFault> {
     Derivatives::of(mechanism).map_err(|source| MotionFault::NoDerivatives {
         needs: "method radau5 needs",
@@ -483,7 +484,7 @@ pub(crate) fn derivatives(mechanism: &Mechanism) -> Result<Derivatives, MotionFa
     })
 }
 
-/// Reads an entry of w from a vector like y.
+/// Returns an entry of w, computed from a vector like y.
 fn read(terms: &[(usize, f64)], x: &[f64]) -> f64 {
     terms.iter().map(|&(place, factor)| factor * x[place]).sum()
 }

@@ -1,4 +1,4 @@
-//! One output row: a state, and values computed from it on request.
+//! One output row, which consists of a state, and of values computed from the state on request.
 
 use model::{Mechanism, Reaction, System};
 use solvability::{CarriedChoices, CarriedSolution, ChoiceError, ChosenValues, NamedChoice};
@@ -7,7 +7,8 @@ use crate::error::MotionFault;
 use crate::events::Event;
 use crate::motion::KeptRowMotion;
 
-/// One output row: a state on the constraint manifold, and values computed from it on request.
+/// One output row. A row consists of a state on the constraint manifold, and of values computed
+/// from the state on request.
 pub struct Sample<'s, 'm> {
     /// Time (s).
     pub t: f64,
@@ -17,8 +18,8 @@ pub struct Sample<'s, 'm> {
     pub v: &'s [f64],
     /// Work of drives and applied forces since the start (J), without the weight.
     pub work: f64,
-    /// Events since the previous row; their times may be later than the time of the row, by less
-    /// than a step.
+    /// Events since the previous row. The times of these events may be later than the time of the
+    /// row, by less than a step.
     pub events: &'s [Event],
     /// The constraint rows (counted from 0) that are redundant at this output row and whose
     /// multipliers are set to zero.
@@ -36,7 +37,7 @@ pub struct ChosenReactions {
     pub multipliers: ChosenValues<f64>,
     /// Reactions of all joints and drives, NaN as in [`Sample::reactions`].
     pub reactions: ChosenValues<Reaction>,
-    /// Reason why the choice selects no solution here; then all values are NaN.
+    /// Reason why the choice selects no solution at this row. In this case all values are NaN.
     pub refused: Option<ChoiceError>,
 }
 
@@ -63,7 +64,7 @@ pub(super) struct OfMotion<'s, 'm> {
     pub(super) chosen: Option<Vec<OfChoice>>,
 }
 
-/// Progress of the solution of the equations at an output row; each part is solved at most once.
+/// Progress of the solution of the equations at an output row. Each part is solved at most once.
 pub(super) enum SolveProgress {
     Nothing,
     /// Rows are factored at the last evaluated pose, which is the pose of the output row.
@@ -100,11 +101,11 @@ pub(super) struct OfChoice {
     pub(super) refused: Option<ChoiceError>,
 }
 
-/// All requested values of an output row, and its rows without multiplier.
+/// All requested values of an output row, and the rows without multiplier.
 pub(super) type RowValues = (Values, Vec<usize>);
 
 impl Sample<'_, '_> {
-    /// All requested values of the output row.
+    /// Returns all requested values of the output row.
     pub(super) fn values(&mut self) -> RowValues {
         let values = match &mut self.source {
             Source::Motion(source) => source.values(self.q, self.v),
@@ -113,7 +114,7 @@ impl Sample<'_, '_> {
         (values, self.dropped.to_vec())
     }
 
-    /// Accelerations, NaN if the plan omits them; allocates memory.
+    /// Returns the accelerations, or NaN if the plan omits them. The function allocates memory.
     ///
     /// # Errors
     /// Returns an error if the equations have no unique solution at this state.
@@ -124,8 +125,9 @@ impl Sample<'_, '_> {
         }
     }
 
-    /// Multipliers of all rows as in [`KeptRowMotion::multipliers`]; NaN for rows of joints and
-    /// drives whose reactions the plan omits; allocates memory.
+    /// Returns the multipliers of all rows as in [`KeptRowMotion::multipliers`]. The multipliers
+    /// are NaN for rows of joints and drives whose reactions the plan omits. The function allocates
+    /// memory.
     ///
     /// # Errors
     /// Returns an error if the equations have no unique solution at this state.
@@ -137,9 +139,9 @@ impl Sample<'_, '_> {
         Ok(ChosenValues::new(multipliers?, self.dropped.to_vec()))
     }
 
-    /// Reactions of all joints and drives in the order of their rows; NaN for reactions that the
-    /// plan omits. Reactions that are not unique are valid only for the choice of this run (its
-    /// independent rows); allocates memory.
+    /// Returns the reactions of all joints and drives in the order of their rows. Reactions that
+    /// the plan omits are NaN. Reactions that are not unique are valid only for the choice of this
+    /// run (its independent rows). The function allocates memory.
     ///
     /// # Errors
     /// Returns an error if the equations have no unique solution at this state.
@@ -151,9 +153,9 @@ impl Sample<'_, '_> {
         Ok(ChosenValues::new(reactions?, self.dropped.to_vec()))
     }
 
-    /// Multipliers and reactions for each of [`Self::choices`], all of them for the same
-    /// accelerations. Values that the model determines are the same in all of them; allocates
-    /// memory.
+    /// Returns multipliers and reactions for each of [`Self::choices`]. All of them have the same
+    /// accelerations. Values that the model determines are the same for all choices. The function
+    /// allocates memory.
     ///
     /// # Errors
     /// Returns an error if the equations have no unique solution at this state.
@@ -192,14 +194,15 @@ impl<'m> OfMotion<'_, 'm> {
         Ok(a)
     }
 
-    /// The requested multipliers.
+    /// Returns the requested multipliers.
     fn multipliers(&mut self, q: &[f64], v: &[f64]) -> Result<Vec<f64>, MotionFault> {
         let mut lambda = self.all_multipliers(q, v)?.to_vec();
         self.leave_out(&mut lambda);
         Ok(lambda)
     }
 
-    /// Multipliers of all rows, computed at the first request; NaN if none are requested.
+    /// Returns the multipliers of all rows, computed at the first request. The multipliers are NaN
+    /// if no multipliers are requested.
     fn all_multipliers(&mut self, q: &[f64], v: &[f64]) -> Result<&[f64], MotionFault> {
         let lambda = match self.lambda.take() {
             Some(lambda) => lambda,
@@ -228,7 +231,7 @@ impl<'m> OfMotion<'_, 'm> {
         vec![f64::NAN; self.motion.mechanism().layout().rows()]
     }
 
-    /// Independent rows that are ill-conditioned at this instant have no multipliers.
+    /// Sets all multipliers to NaN if the independent rows are ill-conditioned at this instant.
     fn blind(&self, lambda: &mut [f64]) {
         if self.motion.equations.velocity.relative_pivot() < self.motion.watch.blind() {
             lambda.fill(f64::NAN);
@@ -248,7 +251,7 @@ impl<'m> OfMotion<'_, 'm> {
         Ok(self.reactions_of(self.lambda.as_deref().unwrap_or_default()))
     }
 
-    /// The requested reactions of these multipliers.
+    /// Returns the requested reactions for these multipliers.
     fn reactions_of(&self, lambda: &[f64]) -> Vec<Reaction> {
         let mechanism = self.motion.mechanism();
         let reactions = mechanism.reactions(self.motion.scratch());
@@ -264,7 +267,7 @@ impl<'m> OfMotion<'_, 'm> {
         ids.map(reaction).collect()
     }
 
-    /// The multipliers and reactions for each choice, computed at the first request.
+    /// Returns the multipliers and reactions for each choice, computed at the first request.
     fn chosen(&mut self, q: &[f64], v: &[f64]) -> Result<&[OfChoice], MotionFault> {
         let chosen = match (self.chosen.take(), self.choices) {
             (Some(chosen), _) => chosen,
@@ -284,7 +287,7 @@ impl<'m> OfMotion<'_, 'm> {
         let mut multipliers = self.all_multipliers(q, v)?.to_vec();
         self.motion.equations.factor_at(self.t_before, q)?;
         if self.motion.equations.requested_rows.is_some() {
-            // The requested rows are ill-conditioned here.
+            // The requested rows are ill-conditioned at this state.
             let mut a = vec![0.0; v.len()];
             self.motion.solve_factored(v, &mut a)?;
             self.motion.multipliers_for(&a, &mut multipliers)?;
@@ -331,7 +334,7 @@ impl<'m> OfMotion<'_, 'm> {
     }
 }
 
-/// Reaction of a joint or drive that is not computed.
+/// Returns the reaction of a joint or drive that is not computed.
 pub(super) fn left_out(mechanism: &Mechanism, group: usize) -> Reaction {
     let component = mechanism.layout().groups[group].spec.component;
     let space = mechanism.space();

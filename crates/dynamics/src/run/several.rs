@@ -1,8 +1,8 @@
-//! Independent components that run at the same time: each on its own thread with its own method,
-//! steps, events and break times. Each component computes the output that the plan requests, and
-//! may be ahead of the others by a limited number of output rows. A row is passed to the caller
-//! when all components have reached it. The module `plan::split` decides how bodies are assigned to
-//! components.
+//! Independent components that run at the same time. Each component runs on its own thread with its
+//! own method, steps, events and break times. Each component computes the output that the plan
+//! requests. A component may be ahead of the other components by a limited number of output rows. A
+//! row is passed to the caller when all components have reached it. The module `plan::split`
+//! decides how bodies are assigned to components.
 
 use std::ops::ControlFlow;
 use std::sync::mpsc::{Receiver, channel, sync_channel};
@@ -32,7 +32,7 @@ struct Row {
     values: RowValues,
 }
 
-/// A component on its thread, as the thread that collects the rows uses it.
+/// A component on its thread, in the form used by the thread that collects the rows.
 struct Link<'p> {
     places: &'p Places,
     rows: Receiver<Row>,
@@ -65,8 +65,8 @@ pub(super) fn run(
             let places = component.places().unwrap_or(&whole);
             let (rows, handle) = match thread::Builder::new().spawn_scoped(scope, work) {
                 Ok(handle) => (rows, Ok(handle)),
-                // The system has no more threads: this thread runs the component before it collects
-                // rows, and therefore must store them.
+                // The system has no more threads. This thread runs the component before it collects
+                // rows, and therefore must store the rows.
                 Err(_) => {
                     let (told, rows) = channel();
                     let send = |own| told.send(own).is_ok();
@@ -79,7 +79,7 @@ pub(super) fn run(
             links.push(Link { places, rows });
         }
         let stopped = show(plan, &links, row).map(Into::into);
-        // Closes the channels: components that are ahead stop at their next row.
+        // The channels are closed, so that components that are ahead stop at their next row.
         drop(links);
         let outcomes = handles
             .into_iter()
@@ -89,7 +89,7 @@ pub(super) fn run(
     conclude(plan, outcomes, stopped, clock.elapsed().as_secs_f64())
 }
 
-/// The result of a thread; a panic in the thread is passed on.
+/// Returns the result of a thread. A panic in the thread is passed on.
 fn joined(handle: ScopedJoinHandle<'_, RunResult>) -> RunResult {
     handle
         .join()
@@ -114,7 +114,7 @@ fn tell(sample: &mut Sample<'_, '_>, send: impl Fn(Row) -> bool) -> ControlFlow<
 }
 
 /// Passes rows to the caller as long as all components reach them and the caller continues. Returns
-/// the fault of a row, if one stopped the run.
+/// the fault of a row if a fault stopped the run.
 fn show(plan: &Plan<'_>, links: &[Link<'_>], row: &mut ShowRow<'_>) -> Option<MotionFault> {
     let mechanism = &plan.prepared().mechanism;
     let layout = mechanism.layout();
@@ -185,7 +185,7 @@ fn show(plan: &Plan<'_>, links: &[Link<'_>], row: &mut ShowRow<'_>) -> Option<Mo
     }
 }
 
-/// Copies values of all parts into the whole; returns the first failure.
+/// Copies values of all parts into the list of the whole mechanism. Returns the first failure.
 fn gather<T: Copy>(
     own: Result<Vec<T>, MotionFault>,
     places: &[usize],
@@ -198,8 +198,8 @@ fn gather<T: Copy>(
     }
 }
 
-/// Copies the multipliers and reactions for the choices of all parts into the whole. A component
-/// without reactions has no such values.
+/// Copies the multipliers and reactions for the choices of all parts into the lists of the whole
+/// mechanism. A component without reactions has no such values.
 fn gather_chosen(
     own: Result<Vec<OfChoice>, MotionFault>,
     places: &Places,
@@ -218,14 +218,14 @@ fn gather_chosen(
     }
 }
 
-/// Copies values of a part to their indices in the whole.
+/// Copies values of a part to the indices of the part in the whole mechanism.
 fn spread<T: Copy>(own: &[T], places: &[usize], whole: &mut [T]) {
     for (x, &place) in own.iter().zip(places) {
         whole[place] = *x;
     }
 }
 
-/// The result for the whole mechanism from the results of its components.
+/// Returns the result for the whole mechanism, combined from the results of its components.
 fn conclude(
     plan: &Plan<'_>,
     outcomes: Vec<RunResult>,
@@ -265,8 +265,8 @@ fn conclude(
     }
 }
 
-/// The verdicts on the whole mechanism from the verdicts on its components; `None` if a component
-/// has no verdicts.
+/// Returns the verdicts on the whole mechanism, combined from the verdicts on its components.
+/// Returns `None` if a component has no verdicts.
 fn verdicts(plan: &Plan<'_>, summary: &Summary) -> Option<Stretches> {
     let mechanism = &plan.prepared().mechanism;
     let mut whole = Stretches::unique(mechanism, [0.0, summary.t], &plan.groups);

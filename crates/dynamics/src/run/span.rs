@@ -7,12 +7,13 @@ use model::{Mechanism, System};
 use crate::error::MotionFault;
 use crate::limits::{PEAK, ROW_DEVIATION, ROW_DEVIATION_AT_REST};
 
-/// An accepted step: its times, and y0, f0, y1, f1.
+/// An accepted step, with its times and with y0, f0, y1, f1.
 #[derive(Default)]
 pub(super) struct Span {
     times: [f64; 2],
     ends: [Vec<f64>; 4],
-    /// Sizes with which output rows of this step are compared, computed at its first row.
+    /// Sizes with which output rows of this step are compared. The sizes are computed at the first
+    /// row of the step.
     sizes: Option<StepScales>,
     led: Vec<f64>,
 }
@@ -22,7 +23,7 @@ pub(super) struct Span {
 struct StepScales {
     /// The longest displacement along a column of C, in units of the mechanism.
     way: f64,
-    /// Momentum in the mass metric: of the velocities at the ends of the step, and of a uniform
+    /// Momentum in the mass metric, for the velocities at the ends of the step and for a uniform
     /// motion over the same displacement.
     speed: f64,
     mean: f64,
@@ -39,10 +40,10 @@ impl Span {
         }
     }
 
-    /// Checks a projected output row y = [q; v; …] at time t; lengths are divided by `size`.
+    /// Checks a projected output row y = [q; v; …] at time t. Lengths are divided by `size`.
     ///
     /// # Errors
-    /// [`MotionFault::FarRow`]
+    /// Returns [`MotionFault::FarRow`] if the row is far from the path of the step.
     pub(super) fn check(
         &mut self,
         mechanism: &Mechanism,
@@ -102,8 +103,8 @@ impl Span {
         }
     }
 
-    /// The predicted path at a time t between the ends of the step: the cubic Hermite interpolant
-    /// of its ends.
+    /// Returns the predicted path at a time t between the ends of the step. The path is the cubic
+    /// Hermite interpolant of the ends.
     pub(super) fn lead(&mut self, t: f64) -> Option<&[f64]> {
         let [t0, t1] = self.times;
         if !(t0 < t && t < t1) {
@@ -121,7 +122,7 @@ impl Span {
     }
 }
 
-/// The norm of a velocity in the mass metric.
+/// Returns the norm of a velocity in the mass metric.
 fn momentum(mass: &[f64], v: impl Iterator<Item = f64>) -> f64 {
     mass.iter()
         .zip(v)
@@ -136,7 +137,7 @@ mod tests {
 
     use super::*;
 
-    /// A free body of one kilogram and one kg·m²; lengths in metres.
+    /// Returns a free body of one kilogram and one kg·m². Lengths are in metres.
     fn body() -> Mechanism {
         let one = Body {
             name: "one".into(),
@@ -151,8 +152,8 @@ mod tests {
         Mechanism::build(&description).unwrap()
     }
 
-    /// Whether an output row at 0.5 s with coordinate x and velocity v along x is accepted. The
-    /// step takes 1 s and moves from x = 0 to `way` with the velocity `speed` at both ends.
+    /// Returns whether an output row at 0.5 s with coordinate x and velocity v along x is accepted.
+    /// The step takes 1 s and moves from x = 0 to `way` with the velocity `speed` at both ends.
     fn is_shown([x, v]: [f64; 2], way: f64, speed: f64) -> bool {
         let state = |x: f64, v: f64| [x, 0.0, 0.0, v, 0.0, 0.0];
         let mut span = Span::default();
@@ -175,8 +176,8 @@ mod tests {
         assert!(!is_shown([1.5e-3, 0.0], 0.0, 0.0));
     }
 
-    /// A displacement of one metre in a second, uniformly in three coordinates: √3 kg·m/s; three
-    /// times this is 5.2 kg·m/s.
+    /// A displacement of one metre in a second, uniformly in three coordinates, has the momentum √3
+    /// kg·m/s. Three times this momentum is 5.2 kg·m/s.
     #[test]
     fn a_drive_that_rests_at_both_ends_of_a_step_may_be_fast_between() {
         assert!(is_shown([0.5, 5.0], 1.0, 0.0));

@@ -15,7 +15,8 @@ use solvability::Stretches;
 pub struct Summary {
     /// Last time reached (s).
     pub t: f64,
-    /// Integration method, given or chosen; `auto` if components have different methods.
+    /// Integration method, given or chosen. The value is `auto` if components have different
+    /// methods.
     pub method: Method,
     /// Accepted steps.
     pub steps: u64,
@@ -38,13 +39,13 @@ pub struct Summary {
     /// Largest |C·v − b| at accepted steps and output rows.
     pub max_velocity_residual: f64,
     /// Largest |E − E₀ − work of drives and applied forces| relative to the largest kinetic energy.
-    /// For components that ran separately it is an upper bound: the sum of their largest energy
-    /// errors relative to the largest of their kinetic energies.
+    /// For components that ran separately the value is an upper bound: the sum of their largest
+    /// energy errors relative to the largest of their kinetic energies.
     pub energy_balance: f64,
     /// Largest |E − E₀ − work| (J).
     pub energy_gap: f64,
-    /// Largest kinetic energy (J); for components that ran separately, the largest kinetic energy
-    /// of any component.
+    /// Largest kinetic energy (J). For components that ran separately, it is the largest kinetic
+    /// energy of any component.
     pub largest_kinetic_energy: f64,
     /// Smallest pivot ratio of the independent rows at the start and at accepted steps without
     /// generated code.
@@ -53,12 +54,12 @@ pub struct Summary {
     pub misfits: Vec<Misfit>,
     /// Events of the run.
     pub events: Vec<Event>,
-    /// Verdicts on reactions and groups, by time intervals; `None` if no reactions were requested.
+    /// Verdicts on reactions and groups, by time intervals. `None` if no reactions were requested.
     pub verdicts: Option<Stretches>,
-    /// The rows whose multipliers were zero by choice in output rows, with the time from which this
-    /// choice was used; empty if no reactions were requested.
+    /// The rows whose multipliers were zero by choice in output rows, and the time from which this
+    /// choice was used. The list is empty if no reactions were requested.
     pub dropped: Vec<DroppedRows>,
-    /// Components that ran separately; empty if the mechanism was not split.
+    /// Components that ran separately. The list is empty if the mechanism was not split.
     pub components: Vec<ComponentSummary>,
 }
 
@@ -78,11 +79,11 @@ pub struct DroppedRows {
 #[non_exhaustive]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct ComponentSummary {
-    /// Names of its bodies.
+    /// Names of the bodies of the component.
     pub name: String,
     /// Indices of the component in the whole mechanism.
     pub places: Places,
-    /// Results of the component; rows and degrees of redundancy refer to the component.
+    /// Results of the component. Rows and degrees of redundancy refer to the component.
     pub summary: Summary,
 }
 
@@ -126,9 +127,10 @@ pub struct Failure {
 }
 
 impl Summary {
-    /// Results for the whole mechanism: sums of work, the largest residuals, all events in the
-    /// order of time. The time reached is the smallest of the components. `dropped` contains the
-    /// redundant rows of each component at the start, numbered in the component.
+    /// Returns the results for the whole mechanism: sums of work, the largest residuals, and all
+    /// events in the order of time. The time reached is the smallest time of the components.
+    /// `dropped` contains the redundant rows of each component at the start, with the numbers of
+    /// the component.
     pub(super) fn of_components(
         components: Vec<ComponentSummary>,
         dropped: &[&[usize]],
@@ -167,7 +169,7 @@ impl Summary {
     }
 }
 
-/// Constraint violations of components as rows of the whole mechanism.
+/// Returns the constraint violations of components as rows of the whole mechanism.
 fn misfits(components: &[ComponentSummary]) -> Vec<Misfit> {
     let of_component = |c: &ComponentSummary| {
         let places = c.places.rows.clone();
@@ -182,7 +184,7 @@ fn misfits(components: &[ComponentSummary]) -> Vec<Misfit> {
     all
 }
 
-/// Events of components in the order of time, as events of the whole mechanism.
+/// Returns the events of components in the order of time, as events of the whole mechanism.
 fn events(components: &[ComponentSummary], dropped: &[&[usize]]) -> Vec<Event> {
     let places = components.iter().map(|c| &c.places);
     let mut whole = WholeEvents::new(places.zip(dropped.iter().copied()));
@@ -207,7 +209,8 @@ pub(super) struct WholeEvents<'p> {
 }
 
 impl<'p> WholeEvents<'p> {
-    /// Components with their indices, and their redundant rows at the start.
+    /// Creates the list from components with their indices, and from their redundant rows at the
+    /// start.
     pub(super) fn new<'d>(components: impl Iterator<Item = (&'p Places, &'d [usize])>) -> Self {
         let (places, now) = components
             .map(|(places, dropped)| (places, of_whole(&places.rows, dropped)))
@@ -215,7 +218,7 @@ impl<'p> WholeEvents<'p> {
         Self { places, now }
     }
 
-    /// The next event, of component `k`.
+    /// Returns the next event, which is an event of component `k`.
     pub(super) fn event(&mut self, k: usize, event: &Event) -> Event {
         self.now[k] = of_whole(&self.places[k].rows, &event.dropped);
         let mut dropped = self.now.concat();
@@ -236,7 +239,7 @@ impl<'p> WholeEvents<'p> {
     }
 }
 
-/// Rows of a component, numbered in the whole mechanism.
+/// Returns the rows of a component with the numbers of the whole mechanism.
 fn of_whole(places: &[usize], rows: &[usize]) -> Vec<usize> {
     rows.iter().map(|&i| places[i]).collect()
 }
@@ -297,7 +300,7 @@ mod tests {
         assert_eq!(told, [(0.5, &[0, 1][..]), (1.0, &[0, 3]), (1.5, &[3, 4])]);
         let redundancy = |e: &Event| [e.redundancy_before, e.redundancy_after];
         assert!(whole.events.iter().all(|e| redundancy(e) == [2, 2]));
-        // The time reached is the time of the slower component; the energy balance is a bound.
+        // The time reached is the time of the slower component. The energy balance is a bound.
         assert_eq!((whole.t, whole.steps), (1.0, 20));
         assert_eq!(whole.energy_balance, (0.25 + 0.25) / 2.0);
     }

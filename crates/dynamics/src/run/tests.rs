@@ -1,5 +1,5 @@
-//! Forces that call a function: closed-form solutions, methods that reject these forces, and the
-//! end of a run at their faults.
+//! Forces that call a function: closed-form solutions, methods that reject these forces, and runs
+//! that end because such a force fails.
 
 use std::ops::ControlFlow;
 use std::sync::Arc;
@@ -80,7 +80,7 @@ fn options(method: Method) -> MotionOptions {
     }
 }
 
-/// Times, coordinates and velocities of all rows.
+/// Returns the times, coordinates and velocities of all rows.
 fn rows(prepared: &PreparedMechanism, method: Method) -> Vec<(f64, Vec<f64>, Vec<f64>)> {
     let mut rows = Vec::new();
     simulate(prepared, &options(method), |sample| {
@@ -93,7 +93,7 @@ fn rows(prepared: &PreparedMechanism, method: Method) -> Vec<(f64, Vec<f64>, Vec
 
 const EXPLICIT: [Method; 4] = [Method::Auto, Method::Dop853, Method::Dopri5, Method::Tsit5];
 
-/// x = e^(−δt)·(x₀·cos ωt + x₀·δ/ω·sin ωt), accurate to the tolerance of the run.
+/// The solution is x = e^(−δt)·(x₀·cos ωt + x₀·δ/ω·sin ωt), accurate to the tolerance of the run.
 #[test]
 fn a_called_oscillator_swings_as_by_hand() {
     let delta = DAMPING / (2.0 * MASS);
@@ -179,7 +179,7 @@ fn auto_chooses_an_explicit_method_and_one_clock() {
     assert!(method.reason.contains("`motor of a`"), "{}", method.reason);
 }
 
-/// The run ends immediately: no shorter steps are tried, and the last accepted state is before the
+/// The run ends immediately. No shorter steps are tried, and the last accepted state is before the
 /// fault. Later calls only determine the name of the cause.
 #[test]
 fn a_function_without_a_value_ends_the_run_by_name() {
@@ -215,7 +215,8 @@ fn a_function_without_a_value_ends_the_run_by_name() {
                 text.contains("measure = ") && text.contains("rate = "),
                 "{source}"
             );
-            // One call for the force at the stage, and two to determine its name.
+            // There is one call for the force at the stage. Two more calls determine the name of
+            // the force.
             assert!(after.load(Ordering::Relaxed) <= 3, "{after:?}");
         }
     }
@@ -231,7 +232,8 @@ fn a_function_without_a_value_ends_the_run_by_name() {
     );
 }
 
-/// m·ẍ = F, J·φ̈ = T − c·φ̇ in the plane, with a function of the state of the body.
+/// The equations of motion are m·ẍ = F and J·φ̈ = T − c·φ̇ in the plane. The force is a function of
+/// the state of the body.
 #[test]
 fn a_body_is_pushed_by_a_called_wrench() {
     let (force, torque, drag, inertia) = ([3.0, -1.0, 0.0], 0.4, 0.5, 0.1);
@@ -268,13 +270,13 @@ fn a_body_is_pushed_by_a_called_wrench() {
     );
 }
 
-/// A torque about the vertical axis of the ground rotates a body about this axis, whatever the
-/// body's own axes are. The inertia tensor of the body has products of inertia, and y is a
-/// principal axis.
+/// A torque about the vertical axis of the ground rotates a body about this axis, for any axes of
+/// the body. The inertia tensor of the body has products of inertia, and y is a principal axis.
 #[test]
 fn a_called_wrench_of_space_is_in_ground_axes() {
     let torque = 0.6;
-    // Rotated by 30° about the vertical and by 90° about x: the vertical is y of the body.
+    // The body is rotated by 30° about the vertical and by 90° about x, so the vertical is y of the
+    // body.
     let (half, quarter) = (15.0_f64.to_radians(), 45.0_f64.to_radians());
     let (w, x) = (half.cos() * quarter.cos(), half.cos() * quarter.sin());
     let (y, z) = (half.sin() * quarter.sin(), half.sin() * quarter.cos());

@@ -1,8 +1,8 @@
-//! The verdicts of a run: at accepted steps and output rows they are computed from the rows that
-//! are factored at these states.
+//! The verdicts of a run. At accepted steps and output rows, the verdicts are computed from the
+//! rows that are factored at these states.
 //!
-//! A parameter sweep needs only the verdicts of the whole run. For it, they are computed only at
-//! the ends of each time interval between two events.
+//! A parameter sweep needs only the verdicts on the whole run. For a sweep, the verdicts are
+//! computed only at the ends of each time interval between two events.
 
 use std::collections::HashMap;
 
@@ -19,7 +19,8 @@ use crate::prepare::PreparedMechanism;
 
 /// Record of the verdicts of a run.
 pub(super) struct RunVerdicts<'m> {
-    /// `None` if no row is redundant: then all reactions are unique.
+    /// The verdicts during the motion. `None` if no row is redundant, because all reactions are
+    /// then unique.
     carried: Option<CarriedVerdicts<'m>>,
     /// Work memory for dependencies.
     dependencies: Vec<Vec<f64>>,
@@ -30,12 +31,12 @@ pub(super) struct RunVerdicts<'m> {
     wanted: Verdicts,
     /// Number of steps.
     steps: usize,
-    /// Whether the end of the last step is the first in its time interval.
+    /// Whether the end of the last step is the first step end in its time interval.
     ends_first: bool,
 }
 
 impl<'m> RunVerdicts<'m> {
-    /// The record for a run with these independent rows.
+    /// Creates the record for a run with these independent rows.
     pub(super) fn new(
         motion: &KeptRowMotion<'m>,
         prepared: &PreparedMechanism,
@@ -60,13 +61,13 @@ impl<'m> RunVerdicts<'m> {
         }
     }
 
-    /// Whether a verdict can change during the run.
+    /// Returns whether a verdict can change during the run.
     pub(super) fn may_change(&self) -> bool {
         self.carried.is_some()
     }
 
-    /// Computes the verdicts at an output row if differing instants are requested, and at the
-    /// start. Records its rows without multiplier.
+    /// Computes the verdicts at an output row if special instants are requested, and at the start.
+    /// Records the rows without multiplier.
     pub(super) fn look_at_row(
         &mut self,
         motion: &mut KeptRowMotion<'_>,
@@ -80,8 +81,9 @@ impl<'m> RunVerdicts<'m> {
         self.look(motion, state, is_factored, InstantOrder::Next)
     }
 
-    /// Computes the verdicts at a state: its time, the time at which functions are evaluated, and
-    /// its coordinates. `is_factored` states whether the rows are factored at this state.
+    /// Computes the verdicts at a state. The state consists of its time, the time at which
+    /// functions are evaluated, and its coordinates. `is_factored` states whether the rows are
+    /// factored at this state.
     pub(super) fn look(
         &mut self,
         motion: &mut KeptRowMotion<'_>,
@@ -112,8 +114,8 @@ impl<'m> RunVerdicts<'m> {
         Ok(())
     }
 
-    /// The impulses of all joints and drives for these multipliers of all rows, which belong to one
-    /// choice. The verdicts refer to this instant, at which the rows are factored.
+    /// Returns the impulses of all joints and drives for these multipliers of all rows, which
+    /// belong to one choice. The verdicts refer to this instant, at which the rows are factored.
     pub(super) fn impulses(
         &mut self,
         motion: &mut KeptRowMotion<'_>,
@@ -173,9 +175,9 @@ impl<'m> RunVerdicts<'m> {
         }
     }
 
-    /// The joints and drives whose force and torque are both not determined on the whole run,
-    /// whatever the following steps show. Empty unless only verdicts on the whole run are
-    /// requested. The last evaluation was inside a time interval.
+    /// Returns the joints and drives for which neither the force nor the torque is determined on
+    /// the whole run. Later steps cannot change this result. The list is empty unless only verdicts
+    /// on the whole run are requested. The last evaluation was inside a time interval.
     pub(super) fn not_of_run(&self) -> Vec<ConstraintId> {
         let asked = self
             .carried
@@ -184,7 +186,7 @@ impl<'m> RunVerdicts<'m> {
         asked.map_or_else(Vec::new, CarriedVerdicts::without_determined)
     }
 
-    /// Whether the verdicts are to be computed at the end of a step.
+    /// Returns whether the verdicts must be computed at the end of a step.
     pub(super) fn are_wanted_at_step(&self) -> bool {
         self.carried.as_ref().is_some_and(|carried| {
             self.wanted == Verdicts::WithInstants
@@ -195,8 +197,8 @@ impl<'m> RunVerdicts<'m> {
 
     /// Starts time intervals at events within a step, given in the order of time, and after the
     /// step if `ends_there`. Returns the times before the end of the step at which verdicts must be
-    /// computed. One such time is between any two boundaries that have no evaluation between them;
-    /// another is the start of the last step of an interval.
+    /// computed. There is one such time between any two boundaries that have no evaluation between
+    /// them. Another such time is the start of the last step of an interval.
     pub(super) fn cut(&mut self, events: &[f64], [t0, t1]: [f64; 2], ends_there: bool) -> Vec<f64> {
         let Some(carried) = &mut self.carried else {
             return Vec::new();
@@ -229,7 +231,7 @@ impl<'m> RunVerdicts<'m> {
         looks
     }
 
-    /// The verdicts up to the end, and the rows without multiplier.
+    /// Returns the verdicts up to the end, and the rows without multiplier.
     pub(super) fn finish(
         self,
         motion: &KeptRowMotion<'_>,

@@ -2,8 +2,8 @@
 //!
 //! The rank is never decided at a stage. A stage violates the constraints by some δ, so a singular
 //! value that should be zero is about δ. Positions and velocities have separate independent rows. A
-//! holonomic row may be redundant at velocity level because knife edges imply its velocity. But no
-//! row implies its position, and without it the configuration would drift.
+//! holonomic row may be redundant at velocity level because knife edges imply its velocity.
+//! However, no row implies its position, and without this row the configuration would drift.
 
 use model::System;
 
@@ -14,18 +14,19 @@ use super::{Accelerations, State};
 use crate::counts::{WorkKind, note};
 use crate::error::MotionFault;
 
-/// A mechanism with its independent rows. All memory is allocated here.
+/// A mechanism and its independent rows. All memory is allocated when this value is created.
 pub(crate) struct KeptEquations<'m> {
     pub(crate) at: Evaluation<'m>,
     /// Independent rows of C.
     pub(crate) velocity: KeptRows,
     /// Independent rows of Φq.
     pub(crate) position: KeptRows,
-    /// Rows requested by the user, while they are ill-conditioned and other rows are used.
+    /// Rows requested by the user. The rows are stored while they are ill-conditioned and other
+    /// rows are used.
     pub(crate) requested_rows: Option<KeptRows>,
     /// Constraint violations of redundant rows, if a tolerance is stated.
     pub(crate) misfits: Option<Box<Misfits>>,
-    /// Work memory: an acceleration, n_v.
+    /// Work memory for an acceleration, n_v values.
     a: Vec<f64>,
 }
 
@@ -42,19 +43,19 @@ impl<'m> KeptEquations<'m> {
         }
     }
 
-    /// The rows of C whose multipliers are zero by choice.
+    /// Returns the rows of C whose multipliers are zero by choice.
     pub(crate) fn without_multiplier(&self) -> &[usize] {
         let rows = self.requested_rows.as_ref().unwrap_or(&self.velocity);
         &rows.dropped
     }
 
-    /// Evaluates a configuration and factors the rows of C at it.
+    /// Evaluates a configuration and factors the rows of C at this configuration.
     pub(crate) fn factor_at(&mut self, t: f64, q: &[f64]) -> Result<(), MotionFault> {
         self.at.pose(t, q);
         self.velocity.factor(&self.at)
     }
 
-    /// Accelerations, if the pose is evaluated and the rows are factored.
+    /// Computes accelerations. The pose must be evaluated, and the rows must be factored.
     pub(crate) fn solve_factored(&mut self, v: &[f64], a: &mut [f64]) -> Result<(), MotionFault> {
         note(WorkKind::Accelerations);
         self.at.gamma_and_force(v);
@@ -63,9 +64,9 @@ impl<'m> KeptEquations<'m> {
         solved.map_err(|fault| self.at.named(fault))
     }
 
-    /// Multipliers of all rows for accelerations a from the last solution; zero for redundant rows.
-    /// The multipliers are NaN if independent rows are dependent at exactly this instant, because
-    /// then the multipliers are not defined.
+    /// Computes the multipliers of all rows for accelerations a from the last solution. The
+    /// multipliers of redundant rows are zero. The multipliers are NaN if independent rows are
+    /// dependent at exactly this instant, because the multipliers are then not defined.
     pub(crate) fn multipliers_for(
         &mut self,
         a: &[f64],
@@ -83,21 +84,21 @@ impl<'m> KeptEquations<'m> {
         Ok(())
     }
 
-    /// Accepts the constraint violations of the state last checked, if there are any: at the end of
-    /// a step or at an output row.
+    /// Accepts the constraint violations of the state last checked, if there are any. The
+    /// violations are accepted at the end of a step or at an output row.
     pub(crate) fn accept_misfits(&mut self, is_end_of_step: bool) {
         if let Some(misfits) = &mut self.misfits {
             misfits.accept(&self.at, is_end_of_step);
         }
     }
 
-    /// Whether violations of redundant rows were larger than rounding errors.
+    /// Returns whether violations of redundant rows were larger than rounding errors.
     pub(crate) fn have_missed(&self) -> bool {
         self.misfits.as_ref().is_some_and(|m| !m.found().is_empty())
     }
 
-    /// The independent row with the largest coefficient in the dependency of a redundant row at t =
-    /// 0 and coordinates q, among the rows that are not yet used.
+    /// Returns the independent row with the largest coefficient in the dependency of a redundant
+    /// row at t = 0 and coordinates q. Only rows that are not yet used are considered.
     pub(crate) fn partner(
         &mut self,
         q: &[f64],
@@ -114,7 +115,7 @@ impl<'m> KeptEquations<'m> {
         Ok(largest.filter(|i| part(i) > 0.0))
     }
 
-    /// Exchanges the independent rows and the requested rows, if they differ.
+    /// Exchanges the independent rows and the requested rows if they differ.
     pub(crate) fn swap_requested_rows(&mut self) {
         if let Some(requested) = &mut self.requested_rows {
             std::mem::swap(requested, &mut self.velocity);
@@ -130,7 +131,7 @@ impl Accelerations for KeptEquations<'_> {
         self.solve_factored(state.v, a)
     }
 
-    /// Multipliers on the requested rows.
+    /// Computes multipliers on the requested rows.
     fn multipliers(&mut self, state: State<'_>, lambda: &mut [f64]) -> Result<(), MotionFault> {
         self.swap_requested_rows();
         let mut a = std::mem::take(&mut self.a);

@@ -1,5 +1,5 @@
-//! A mechanism with the results of its kernels at one state: the functions that compute poses,
-//! constraints and forces.
+//! A mechanism and the results of its kernels at one state. The kernels compute poses, constraints
+//! and forces.
 
 use model::{Mechanism, RowLabel, Scratch, System};
 
@@ -47,12 +47,12 @@ impl<'m> Evaluation<'m> {
         self.mechanism.force(&mut self.s);
     }
 
-    /// Residual C·v − b of row i.
+    /// Returns the residual C·v − b of row i.
     pub(crate) fn velocity_residual(&self, i: usize, v: &[f64]) -> f64 {
         self.mechanism.layout().velocity_residual(&self.s, i, v)
     }
 
-    /// Residual C·v − b of row i, and the size of its terms.
+    /// Returns the residual C·v − b of row i, and the size of its terms.
     pub(crate) fn velocity_residual_and_scale(&self, i: usize, v: &[f64]) -> (f64, f64) {
         let (mut sum, mut size) = (0.0, 0.0);
         for (column, c) in self.mechanism.layout().row(&self.s, i) {
@@ -64,17 +64,17 @@ impl<'m> Evaluation<'m> {
         (sum - b, size + b.abs())
     }
 
-    /// Size of the terms of row i of Φ.
+    /// Returns the size of the terms of row i of Φ.
     pub(crate) fn position_scale(&self, i: usize) -> f64 {
         self.mechanism.scales(&self.s).position(i)
     }
 
-    /// Size of the terms of row i of C·v − b.
+    /// Returns the size of the terms of row i of C·v − b.
     pub(crate) fn velocity_scale(&self, i: usize, v: &[f64]) -> f64 {
         self.mechanism.scales(&self.s).velocity(i, v)
     }
 
-    /// The value of row i of C for a motion of the size of the mechanism.
+    /// Returns the value of row i of C for a motion of the size of the mechanism.
     pub(crate) fn row_size(&self, i: usize) -> f64 {
         let row = self.mechanism.layout().row(&self.s, i);
         let space = self.mechanism.space();
@@ -85,7 +85,7 @@ impl<'m> Evaluation<'m> {
         self.mechanism.layout().labels[i].clone()
     }
 
-    /// Replaces the fault by one with the name of a force that has no value, if there is such a
+    /// Replaces the fault by a fault with the name of a force that has no value, if there is such a
     /// force.
     pub(super) fn named(&mut self, fault: MotionFault) -> MotionFault {
         match fault {
@@ -105,8 +105,8 @@ impl<'m> Evaluation<'m> {
         }
     }
 
-    /// The fault of completed coordinates that are too far from the expected ones; `column` of C
-    /// has the largest distance.
+    /// Returns the fault of completed coordinates that are too far from the expected coordinates.
+    /// `column` of C has the largest distance.
     pub(crate) fn far_completion(&self, time: f64, (column, by): (usize, f64)) -> MotionFault {
         let (body, coordinate) = self.mechanism.coordinate(column);
         let body = body.to_owned();

@@ -1,4 +1,5 @@
-//! Accelerations and multipliers by generated code, with a check of their reliability.
+//! Accelerations and multipliers by generated code. The module also checks the reliability of the
+//! results.
 
 use super::{Accelerations, State};
 use crate::code::SceneCode;
@@ -51,7 +52,8 @@ impl std::fmt::Display for Doubt {
 }
 
 impl Doubt {
-    /// Checks the health of a result and that its values are finite; NaN counts as unreliable.
+    /// Checks the health of a result, and checks that its values are finite. NaN counts as
+    /// unreliable.
     pub(crate) fn of(health: f64, results: &[f64]) -> Result<(), Self> {
         if !GUARDED {
             return Ok(());

@@ -7,10 +7,10 @@ use model::{Mechanism, System};
 #[derive(Clone)]
 pub(super) struct KeptMatrix {
     pub(super) c: SparseMatrix,
-    /// For each value: its index among the entries of C, and its unit.
+    /// For each value, its index among the entries of C, and its unit.
     first: Vec<(u32, f64)>,
-    /// Further entries that are added to a value, with the index of the value: a joint may
-    /// contribute twice to a coordinate.
+    /// Further entries that are added to a value, with the index of the value. Such entries exist
+    /// because a joint may contribute twice to a coordinate.
     more: Vec<(u32, (u32, f64))>,
 }
 
@@ -47,19 +47,19 @@ impl KeptMatrix {
         }
     }
 
-    /// Memory for this number of entries (bytes).
+    /// Returns the memory for this number of entries (bytes).
     pub(super) fn bytes(entries: usize) -> usize {
         entries * (size_of::<(usize, f64)>() + size_of::<(u32, f64)>())
     }
 }
 
-/// The sparsity pattern of the independent rows, with zeros as entries.
+/// Returns the sparsity pattern of the independent rows, with zeros as entries.
 pub(super) fn pattern_of(mechanism: &Mechanism, kept: &[usize]) -> SparseMatrix {
     let layout = mechanism.layout();
     let pattern = &layout.pattern;
     let row =
         |&i: &usize| (pattern.start[i]..pattern.start[i + 1]).map(|at| (pattern.column[at], 0.0));
-    // The columns of a pattern are always below n_v; without entries there is no equation to solve.
+    // The columns of a pattern are always below n_v. Without entries there is no equation to solve.
     SparseMatrix::from_rows(layout.n_v, kept.iter().map(row))
         .unwrap_or_else(|_| unreachable!("columns of a pattern are below {}", layout.n_v))
 }

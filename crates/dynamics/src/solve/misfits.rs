@@ -1,11 +1,11 @@
 //! Constraint violations (misfits) of redundant rows. Rows that are redundant only within a stated
-//! tolerance may be violated up to a bound that follows from the tolerance of the data. The
-//! violation of such a row is a result of the motion.
+//! tolerance may be violated up to a bound. The bound is computed from the tolerance of the data.
+//! The violation of such a row is a result of the motion.
 //!
 //! Let `z` be 1 at a redundant row, and minus the coefficients at the independent rows that imply
-//! it. Then the bound is `3·Σ τ_j·|zᵀ·∂Φ/∂d_j|` over all data d_j with their tolerances τ_j; for
-//! velocities `3·Σ τ_j·|zᵀ·∂(C·v)/∂d_j|`. The factor 3 is [`model::SHARED`]. This factor accounts
-//! for rows that share a violation, and for the pose, which changes with the data.
+//! it. Then the bound is `3·Σ τ_j·|zᵀ·∂Φ/∂d_j|` over all data d_j with their tolerances τ_j. For
+//! velocities the bound is `3·Σ τ_j·|zᵀ·∂(C·v)/∂d_j|`. The factor 3 is [`model::SHARED`]. This
+//! factor accounts for rows that share a violation, and for the pose, which changes with the data.
 
 use model::words::quantity;
 use model::{Bodies, DataBlock, Level, RowLabel, System};
@@ -26,13 +26,13 @@ pub struct Misfit {
     pub label: RowLabel,
     /// Unit of the violation: m or rad, and per second for a nonholonomic row.
     pub unit: &'static str,
-    /// Largest |Φ| of the row (|C·v − b| of a nonholonomic row), in its unit.
+    /// Largest |Φ| of the row (|C·v − b| of a nonholonomic row), in the unit of the violation.
     pub largest: f64,
     /// Time of the largest violation (s).
     pub time: f64,
     /// Violation that data within their tolerances can cause at this time, in the unit of the row.
     pub bound: f64,
-    /// For a row of angles: its violation times the size of the mechanism (m, or m/s).
+    /// For a row of angles, the violation times the size of the mechanism (m, or m/s).
     pub at_size: Option<f64>,
 }
 
@@ -63,16 +63,16 @@ struct Instant {
 #[derive(Clone, Copy)]
 struct Residual {
     row: usize,
-    /// Φ, or `C·v − b` of a nonholonomic row.
+    /// Value of Φ, or of `C·v − b` for a nonholonomic row.
     value: f64,
-    /// dΦ/dt; `None` for a nonholonomic row.
+    /// Rate dΦ/dt; `None` for a nonholonomic row.
     rate: Option<f64>,
     /// Largest residual that the data can cause, if the residual is larger than rounding errors.
     bound: Option<f64>,
 }
 
 impl Misfits {
-    /// An empty record; `at` has been evaluated at the start.
+    /// Creates an empty record. `at` must have been evaluated at the start.
     pub(crate) fn new(at: &Evaluation<'_>) -> Self {
         let data = at.mechanism.data();
         Self {
@@ -86,8 +86,8 @@ impl Misfits {
         }
     }
 
-    /// Largest residual of the redundant row i at a level that data within their tolerances can
-    /// cause. The rows must be factored.
+    /// Returns the largest residual of the redundant row i at a level that can result from data
+    /// within their tolerances. The rows must be factored.
     pub(crate) fn bound(
         &mut self,
         (at, rows): (&Evaluation<'_>, &mut KeptRows),
@@ -130,8 +130,8 @@ impl Misfits {
         }
     }
 
-    /// Accepts the state last checked as a state of the motion. It is either the end of a step,
-    /// within which the largest violations may occur, or an output row.
+    /// Accepts the state last checked as a state of the motion. The state is either an output row,
+    /// or the end of a step, within which the largest violations may occur.
     pub(crate) fn accept(&mut self, at: &Evaluation<'_>, is_end_of_step: bool) {
         for k in 0..self.here.rows.len() {
             let now = self.here.rows[k];
@@ -186,7 +186,7 @@ impl Misfits {
             }
         };
         let misfit = &mut self.found[k];
-        // The first time of a violation that does not grow further.
+        // The stored time is the first time of a violation that does not grow further.
         if value.abs() > misfit.largest * (1.0 + SAME_MISFIT) {
             misfit.largest = value.abs();
             (misfit.time, misfit.bound) = (time, bound);
@@ -194,13 +194,14 @@ impl Misfits {
         }
     }
 
-    /// The constraint violations so far, by row.
+    /// Returns the constraint violations so far, by row.
     pub(crate) fn found(&self) -> &[Misfit] {
         &self.found
     }
 
-    /// Describes how far the mechanism has moved since its start: the body with the largest
-    /// rotation, or with the largest translation relative to the size of the mechanism.
+    /// Describes how far the mechanism has moved since its start. The description contains the body
+    /// with the largest rotation, or the body with the largest translation relative to the size of
+    /// the mechanism.
     pub(crate) fn way(&self, at: &Evaluation<'_>) -> String {
         let bodies = &at.s.bodies;
         let moved = (0..bodies.len()).map(|body| bodies.moved(&self.start, body));
@@ -220,8 +221,8 @@ impl Misfits {
     }
 }
 
-/// Time and value of the extremum of a cubic between two times, given its values and rates there.
-/// Returns `None` if there is no extremum inside.
+/// Returns the time and the value of the extremum of a cubic between two times, given the values
+/// and rates of the cubic at these times. Returns `None` if there is no extremum inside.
 fn peak([t0, t1]: [f64; 2], [y0, y1]: [f64; 2], [r0, r1]: [f64; 2]) -> Option<(f64, f64)> {
     let h = t1 - t0;
     let (m0, m1, d) = (r0 * h, r1 * h, y1 - y0);
@@ -254,7 +255,7 @@ mod tests {
         assert!((value - 5.0).abs() < 1.7e-3, "{value}");
         assert!((t - std::f64::consts::FRAC_PI_2).abs() < 1e-2, "{t}");
         assert_eq!(peak([0.0, 1.0], [0.0, 1.0], [1.0, 1.0]), None);
-        // A parabola: its peak is exact.
+        // The peak of a parabola is exact.
         let (t, value) = peak([0.0, 2.0], [0.0, 0.0], [2.0, -2.0]).expect("a parabola");
         assert!((t - 1.0).abs() < 1e-12 && (value - 1.0).abs() < 1e-12);
     }

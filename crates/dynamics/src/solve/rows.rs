@@ -1,4 +1,4 @@
-//! Independent rows of C with all data for their solution.
+//! Independent rows of C, with all data for the solution of the rows.
 //!
 //! The rows are factored in units of the mechanism ([`super::units`]). Otherwise the pivot of a
 //! rotation, which is a length, would be compared with the pivot of a translation, which has no
@@ -29,19 +29,19 @@ pub(crate) struct KeptRows {
     pub(crate) lambda: Vec<f64>,
     /// Masses, and force and motion of a solution, in units of the mechanism.
     scaled: ScaledVectors,
-    /// The rows in these units, with their factors.
+    /// The rows in these units, and their factors.
     solver: Solver,
     /// Number of independent rows of C, which determines the solver.
     of_c: usize,
     /// Whether the size of the mechanism is so far from a metre that solutions are refined.
     is_far: bool,
-    /// Pivot ratio at the time when these rows were chosen; later pivot ratios are compared with
-    /// it.
+    /// Pivot ratio at the time when these rows were chosen. Later pivot ratios are compared with
+    /// this pivot ratio.
     reference_pivot: Option<f64>,
     /// Pivot ratio of the present partition, if there is one.
     partition: Option<PartitionPivot>,
-    /// The smallest [`Self::largest_coefficient`] since a search found no better rows; zero before
-    /// the first search.
+    /// The smallest [`Self::largest_coefficient`] since a search found no better rows. The value is
+    /// zero before the first search.
     pub(crate) unavoidable: f64,
 }
 
@@ -85,7 +85,7 @@ impl KeptRows {
         })
     }
 
-    /// The rows of another decision at this level.
+    /// Returns the rows of another decision at this level.
     pub(crate) fn others(
         &self,
         at: &Evaluation<'_>,
@@ -95,7 +95,7 @@ impl KeptRows {
     }
 
     /// Factors the rows with the last evaluated entries of C. Rows that are dependent for an
-    /// instant are skipped, but not in the first factorisation.
+    /// instant are skipped, except in the first factorisation.
     pub(crate) fn factor(&mut self, at: &Evaluation<'_>) -> Result<(), MotionFault> {
         let reference = self.reference();
         self.factor_above(PIVOT_SINGULAR, at)?;
@@ -121,7 +121,7 @@ impl KeptRows {
         Ok(())
     }
 
-    /// Like [`KeptRows::factor`], but skips the rows whose pivot is below this share of the
+    /// Works like [`KeptRows::factor`], but skips the rows whose pivot is below this share of the
     /// reference.
     pub(crate) fn factor_above(
         &mut self,
@@ -136,9 +136,10 @@ impl KeptRows {
         factored.map_err(|e| self.fault(at, e))
     }
 
-    /// Chooses the coordinates that these rows determine best with the last evaluated entries of C,
-    /// each relative to its accuracy. From now on the rows are solved for these coordinates.
-    /// Afterwards the rows are factored; returns the other coordinates, ascending.
+    /// Chooses the coordinates that these rows determine best with the last evaluated entries of C.
+    /// Each coordinate is taken relative to its accuracy. From now on the rows are solved for these
+    /// coordinates. The function also factors the rows, and returns the other coordinates,
+    /// ascending.
     pub(crate) fn partition(
         &mut self,
         at: &Evaluation<'_>,
@@ -168,7 +169,7 @@ impl KeptRows {
         Ok(free)
     }
 
-    /// Removes the partition: every factorisation chooses its coordinates again.
+    /// Removes the partition. Every factorisation then chooses its coordinates again.
     pub(crate) fn forget_partition(&mut self) {
         if let Ok((_, saddle)) = self.solver.null_space() {
             saddle.forget_partition();
@@ -176,12 +177,12 @@ impl KeptRows {
         self.partition = None;
     }
 
-    /// Pivot ratio of the partition when it was chosen, if there is one.
+    /// Returns the pivot ratio that the partition had when it was chosen, if there is a partition.
     pub(crate) fn partition_pivot(&self) -> Option<f64> {
         self.partition.and_then(|p| p.0)
     }
 
-    /// Pivot ratio with which present pivot ratios are compared.
+    /// Returns the pivot ratio with which present pivot ratios are compared.
     fn reference(&self) -> Option<f64> {
         match self.partition {
             Some(partition) => partition.0,
@@ -189,14 +190,14 @@ impl KeptRows {
         }
     }
 
-    /// Sets the right-hand side: `of(i)` for each independent row i of C.
+    /// Sets the right-hand side. The value for each independent row i of C is `of(i)`.
     pub(crate) fn take_rhs(&mut self, mut of: impl FnMut(usize) -> f64) {
         for (rhs, &i) in self.rhs.iter_mut().zip(&self.kept) {
             *rhs = of(i);
         }
     }
 
-    /// Overwrites the dependent entries of x so that `C·x = rhs`. This is not possible if a row was
+    /// Overwrites the dependent entries of x so that `C·x = rhs`. Returns an error if a row was
     /// skipped.
     pub(crate) fn complete(
         &mut self,
@@ -252,12 +253,12 @@ impl KeptRows {
         self.written(at, solved, a)
     }
 
-    /// Whether accelerations and their multipliers are refined with the last factorisation.
+    /// Returns whether accelerations and their multipliers are refined with the last factorisation.
     pub(crate) fn are_refined(&self) -> bool {
         self.is_far || self.solver.wants_refinement()
     }
 
-    /// Computes λ for the accelerations a just computed; refined solutions already include λ.
+    /// Computes λ for the accelerations a just computed. Refined solutions already include λ.
     pub(super) fn find_multipliers(
         &mut self,
         at: &Evaluation<'_>,
@@ -271,8 +272,9 @@ impl KeptRows {
         self.solve_for_multipliers().map_err(|e| self.fault(at, e))
     }
 
-    /// Multipliers Λ of all rows with `M·change + C_Kᵀ·Λ = 0` for a change of the velocities by an
-    /// impulse of the independent rows; zero for other rows. The rows must be factored.
+    /// Returns the multipliers Λ of all rows with `M·change + C_Kᵀ·Λ = 0` for a change of the
+    /// velocities by an impulse of the independent rows. The multipliers of other rows are zero.
+    /// The rows must be factored.
     pub(crate) fn impulses(
         &mut self,
         at: &Evaluation<'_>,
@@ -296,13 +298,14 @@ impl KeptRows {
         self.solver.multipliers(force, motion, &mut self.lambda)
     }
 
-    /// The largest coefficient of an independent row in a redundant row, with the last evaluated
-    /// entries of C, at which the rows must be factored. In the redundant rows, the rounding error
-    /// of the independent rows is multiplied by this coefficient.
+    /// Returns the largest coefficient of an independent row in a redundant row, with the last
+    /// evaluated entries of C. The rows must be factored at these entries. In the redundant rows,
+    /// the rounding error of the independent rows is multiplied by this coefficient.
     pub(crate) fn largest_coefficient(&mut self, at: &Evaluation<'_>) -> f64 {
         note(WorkKind::Coefficients);
-        // Large mechanisms have thousands of redundant rows, each implied by a few rows: instead of
-        // all of them, two sums with random weights are used.
+        // Large mechanisms have thousands of redundant rows, each of which is implied by a few
+        // rows. Two sums of the redundant rows with random weights are used instead of all
+        // redundant rows.
         let are_summed = self.kept.len() >= SUMMED_FROM;
         let samples = if are_summed { 2 } else { self.dropped.len() };
         let mut largest = 0.0_f64;
@@ -320,10 +323,10 @@ impl KeptRows {
         largest
     }
 
-    /// Size of the redundant row i and of the contributions of the independent rows to it. For
-    /// `c_i = Σ T_ik·c_k` this is the sum of `scale(i)` and of all `|T_ik|·scale(k)`. The residual
-    /// of the row may be as large as the rounding error of these terms. The rows must be factored
-    /// with the last evaluated entries of C.
+    /// Returns the size of the redundant row i and of the contributions of the independent rows to
+    /// this row. For `c_i = Σ T_ik·c_k`, the size is the sum of `scale(i)` and of all
+    /// `|T_ik|·scale(k)`. The residual of the row may be as large as the rounding error of these
+    /// terms. The rows must be factored with the last evaluated entries of C.
     pub(crate) fn implied_scale(
         &mut self,
         at: &Evaluation<'_>,
@@ -337,8 +340,8 @@ impl KeptRows {
     }
 
     /// Writes the dependency of a redundant row on the independent rows as a combination of all
-    /// rows. It is 1 at the redundant row, and minus the coefficients at the independent rows. The
-    /// rows must be factored.
+    /// rows. The combination is 1 at the redundant row, and minus the coefficients at the
+    /// independent rows. The rows must be factored.
     pub(crate) fn dependency(
         &mut self,
         at: &Evaluation<'_>,
@@ -369,8 +372,8 @@ impl KeptRows {
         Ok(())
     }
 
-    /// Like [`Self::all_dependencies`]; if there are many redundant rows, the dependencies of sums
-    /// of all redundant rows with random weights are written instead.
+    /// Works like [`Self::all_dependencies`]. If there are many redundant rows, the function
+    /// instead writes the dependencies of sums of all redundant rows with random weights.
     pub(crate) fn dependencies(
         &mut self,
         at: &Evaluation<'_>,
@@ -412,8 +415,8 @@ impl KeptRows {
     }
 
     /// Stores the coefficients of the independent rows in a redundant row as multipliers. If a row
-    /// that the independent rows imply acts as a force, it causes no acceleration,
-    /// `M·0 + C_Kᵀ·λ = c_Dᵀ`.
+    /// that the independent rows imply is applied as a force, it causes no acceleration: `M·0 +
+    /// C_Kᵀ·λ = c_Dᵀ`.
     fn imply(&mut self, at: &Evaluation<'_>, dropped: usize) -> Result<(), SaddleError> {
         let scaled = &mut self.scaled;
         scaled.motion.fill(0.0);
@@ -426,7 +429,7 @@ impl KeptRows {
         self.solve_for_multipliers()
     }
 
-    /// Like [`Self::imply`], for the sum of all redundant rows with random weights.
+    /// Works like [`Self::imply`], for the sum of all redundant rows with random weights.
     fn imply_sum(&mut self, at: &Evaluation<'_>, seed: u64) -> Result<(), SaddleError> {
         let scaled = &mut self.scaled;
         scaled.motion.fill(0.0);
@@ -445,23 +448,24 @@ impl KeptRows {
         self.reference_pivot = others.reference_pivot;
     }
 
-    /// Number of rows that were dependent for an instant and skipped in the last factorisation.
+    /// Returns the number of rows that were dependent for an instant and skipped in the last
+    /// factorisation.
     pub(crate) fn n_left_out(&self) -> usize {
         self.solver.n_left_out()
     }
 
-    /// Whether the last factorisation uses the k-th independent row.
+    /// Returns whether the last factorisation uses the k-th independent row.
     pub(crate) fn uses(&self, k: usize) -> bool {
         self.solver.uses(k)
     }
 
-    /// Smallest pivot of the last factorisation relative to its row.
+    /// Returns the smallest pivot of the last factorisation relative to its row.
     pub(crate) fn pivot_ratio(&self) -> f64 {
         self.solver.pivot_ratio()
     }
 
-    /// Smallest pivot relative to its value when the rows were chosen, whatever the coordinates of
-    /// the solution; infinite without rows.
+    /// Returns the smallest pivot relative to its value when the rows were chosen. The result
+    /// applies to any coordinates of the solution, and is infinite without rows.
     pub(crate) fn relative_pivot(&self) -> f64 {
         match self.reference_pivot {
             Some(reference) if reference.is_finite() => self.pivot_ratio() / reference,
@@ -474,8 +478,8 @@ impl KeptRows {
         self.solver.null_frame(frame);
     }
 
-    /// Sign of the determinant of the factored rows bordered by a basis of motions; 0 if the sign
-    /// is unknown.
+    /// Returns the sign of the determinant of the factored rows bordered by a basis of motions, or
+    /// 0 if the sign is unknown.
     pub(crate) fn orientation(&mut self, frame: &[f64]) -> f64 {
         self.solver.orientation(frame)
     }
@@ -492,7 +496,7 @@ impl KeptRows {
         Ok(())
     }
 
-    /// The fault for a failed solution at the last evaluated time.
+    /// Returns the fault for a failed solution at the last evaluated time.
     fn fault(&self, at: &Evaluation<'_>, e: SaddleError) -> MotionFault {
         let time = at.s.t;
         match e {
@@ -532,8 +536,9 @@ impl KeptRows {
     }
 }
 
-/// A pseudo-random weight of a row in a sum, between 1 and 2 in absolute value. Random signs alone
-/// would not be enough: two rows with equal coefficients would cancel in one of two sums.
+/// Returns a pseudo-random weight of a row in a sum, between 1 and 2 in absolute value. Random
+/// signs alone would not be sufficient, because two rows with equal coefficients would cancel in
+/// one of two sums.
 fn weight_of(k: usize, seed: u64) -> f64 {
     let mut mixed = (k as u64).wrapping_add(seed << 40);
     for odd in [0x9e37_79b9_7f4a_7c15, 0xbf58_476d_1ce4_e5b9] {

@@ -1,12 +1,12 @@
-//! One of two solvers of independent rows: in their null space, or through the Schur complement of
-//! the masses.
+//! A solver of independent rows. There are two kinds: one solves the rows in their null space, and
+//! the other solves them through the Schur complement of the masses.
 //!
-//! The first solver eliminates C itself, solves for the coordinates that its rows determine best,
-//! computes the sign of a bordered determinant, supports independent coordinates, and allows zero
-//! masses. Its work grows with the number of free motions times the number of entries. The second
-//! solver is for large mechanisms with many free motions: chains, trains of vehicles. It also
-//! replaces the first one at instants at which many rows of a large mechanism with few free motions
-//! are skipped.
+//! The first solver eliminates C itself and solves for the coordinates that the rows of C determine
+//! best. The first solver computes the sign of a bordered determinant, supports independent
+//! coordinates, and allows zero masses. The work of the first solver grows with the number of free
+//! motions times the number of entries. The second solver is for large mechanisms with many free
+//! motions, such as chains and trains of vehicles. The second solver also replaces the first solver
+//! at instants at which many rows of a large mechanism with few free motions are skipped.
 
 use linalg::{
     GRADED_MASSES, KeptRowSaddle, Refinement, SaddleError, SchurSaddle, SchurStructure,
@@ -36,17 +36,17 @@ enum Factors {
 struct NullSpace {
     saddle: KeptRowSaddle,
     refinement: Refinement,
-    /// Solver for instants at which many motions are free; `None` for small mechanisms, and if the
+    /// Solver for instants at which many motions are free. `None` for small mechanisms, and if the
     /// Schur complement is not accurate enough.
     many: Option<Box<Many>>,
 }
 
-/// The Schur complement in place of the null space.
+/// The Schur complement that replaces the null space.
 #[derive(Clone)]
 struct Many {
     saddle: SchurSaddle,
     /// The smallest relative pivot of the Schur complement divided by that of the null space, both
-    /// at the reference state; 0 before it has been computed.
+    /// at the reference state. The value is 0 before it has been computed.
     share: f64,
     /// Whether the last factorisation was made by this solver, with this floor and these masses.
     is_used: bool,
@@ -54,8 +54,8 @@ struct Many {
     mass: Vec<f64>,
 }
 
-/// A value from the null-space solver if it made the last factorisation, otherwise another value
-/// from the Schur complement.
+/// Returns a value from the null-space solver if this solver made the last factorisation, and
+/// otherwise another value from the Schur complement.
 macro_rules! either {
     ($factors:expr, $null_space:ident => $a:expr, $schur:ident => $b:expr) => {
         match $factors {
@@ -68,20 +68,20 @@ macro_rules! either {
     };
 }
 
-/// Whether the independent rows of C and of Φq are solved through the Schur complement, for this
-/// number of independent rows of C and this size of the mechanism (m). Two cases require a
-/// refinement. In the first case, there are many rows and many free motions, every coordinate has a
-/// mass, and solutions need no refinement because of different masses. In the second case, rows and
-/// free motions are too many for the null space. Many free motions without rows leave no equation
-/// to eliminate.
+/// Returns whether the independent rows of C and of Φq are solved through the Schur complement, for
+/// this number of independent rows of C and this size of the mechanism (m). Two cases require the
+/// Schur complement. In the first case, there are many rows and many free motions, every coordinate
+/// has a mass, and solutions need no refinement because of different masses. In the second case,
+/// rows and free motions are too many for the null space. If there are many free motions but no
+/// rows, there is no equation to eliminate.
 pub(crate) fn is_schur(mechanism: &Mechanism, size: f64, rows: usize) -> bool {
     let free = mechanism.layout().n_v.saturating_sub(rows);
     let is_free = || rows == 0 && free > FREE_DENSE && mechanism.mass().iter().all(|&m| m > 0.0);
     free > FREE_MOST && (is_free() || allows_schur(mechanism, size, rows))
 }
 
-/// Whether the Schur complement is accurate enough for this number of rows of a mechanism of this
-/// size (m), and whether it justifies its memory.
+/// Returns whether the Schur complement is accurate enough for this number of rows of a mechanism
+/// of this size (m), and whether it justifies its memory.
 fn allows_schur(mechanism: &Mechanism, size: f64, rows: usize) -> bool {
     let is_graded = || mass_spread(mechanism, size) >= GRADED_MASSES;
     rows >= SCHUR_FROM
@@ -89,8 +89,8 @@ fn allows_schur(mechanism: &Mechanism, size: f64, rows: usize) -> bool {
         && (rows > REFINED_MOST || !is_graded())
 }
 
-/// Estimated upper bound (bytes) on the memory of a motion: solvers of the independent rows of C
-/// and of Φq, stages, and output rows.
+/// Returns an estimated upper bound (bytes) on the memory of a motion. The memory consists of
+/// solvers of the independent rows of C and of Φq, of stages, and of output rows.
 pub(crate) fn memory(mechanism: &Mechanism, size: f64, levels: [&[usize]; 2]) -> usize {
     let layout = mechanism.layout();
     let of_level = |kept: &[usize]| {
@@ -155,7 +155,7 @@ impl Solver {
         Ok(Self { rows, factors })
     }
 
-    /// Factors the rows with these entries of C; rows whose relative pivots are at most `floor` are
+    /// Factors the rows with these entries of C. Rows whose relative pivots are at most `floor` are
     /// skipped.
     pub(super) fn factor_above(
         &mut self,
@@ -184,7 +184,8 @@ impl Solver {
             schur => schur.solve(&self.rows.c, force, rhs, x, lambda))
     }
 
-    /// Like [`Self::motion`], with λ, refined in double-double if possible.
+    /// Works like [`Self::motion`], but also computes λ. The solution is refined in double-double
+    /// if possible.
     pub(super) fn refined(
         &mut self,
         force: &[f64],
@@ -213,7 +214,7 @@ impl Solver {
             schur => schur.multipliers(&self.rows.c, force, x, lambda))
     }
 
-    /// The Schur complement, if it made the last factorisation.
+    /// Returns the Schur complement if it made the last factorisation.
     fn schur(&self) -> Option<&SchurSaddle> {
         match &self.factors {
             Factors::NullSpace(it) => {
@@ -224,7 +225,7 @@ impl Solver {
         }
     }
 
-    /// The null-space solver, if it made the last factorisation.
+    /// Returns the null-space solver if it made the last factorisation.
     fn own(&self) -> Option<&NullSpace> {
         match &self.factors {
             Factors::NullSpace(it) if self.schur().is_none() => Some(it),
@@ -232,7 +233,7 @@ impl Solver {
         }
     }
 
-    /// Whether solutions include their multipliers.
+    /// Returns whether solutions include their multipliers.
     pub(super) fn brings_multipliers(&self) -> bool {
         self.schur().is_some()
     }
@@ -274,7 +275,8 @@ impl Solver {
         }
     }
 
-    /// The rows and their null-space solver; only this solver supports independent coordinates.
+    /// Returns the rows and their null-space solver. Only this solver supports independent
+    /// coordinates.
     pub(super) fn null_space(
         &mut self,
     ) -> Result<(&SparseMatrix, &mut KeptRowSaddle), SaddleError> {
@@ -285,8 +287,8 @@ impl Solver {
         }
     }
 
-    /// Writes a basis of the motions that the factored rows allow; empty for the Schur complement,
-    /// and without rows, which cannot become dependent.
+    /// Writes a basis of the motions that the factored rows allow. The basis is empty for the Schur
+    /// complement. The basis is also empty without rows, because then no rows can become dependent.
     pub(super) fn null_frame(&self, frame: &mut Vec<f64>) {
         frame.clear();
         if let Some(it) = self.own()
@@ -297,8 +299,8 @@ impl Solver {
         }
     }
 
-    /// Sign of the determinant of the factored rows bordered by a basis of motions; 0 for a basis
-    /// of another size and for the Schur complement.
+    /// Returns the sign of the determinant of the factored rows bordered by a basis of motions. The
+    /// result is 0 for a basis of another size and for the Schur complement.
     pub(super) fn orientation(&mut self, frame: &[f64]) -> f64 {
         let is_own = self.own().is_some_and(|it| frame.len() == it.frame());
         match &mut self.factors {
@@ -309,7 +311,7 @@ impl Solver {
 }
 
 impl NullSpace {
-    /// The Schur complement, if it made the last factorisation.
+    /// Returns the Schur complement if it made the last factorisation.
     fn used(&mut self) -> Option<&mut SchurSaddle> {
         let many = self.many.as_mut().filter(|many| many.is_used);
         many.map(|many| &mut many.saddle)
@@ -339,7 +341,8 @@ impl NullSpace {
         }
     }
 
-    /// The null-space solver with the factors of these rows, even if the Schur complement is used.
+    /// Returns the null-space solver with the factors of these rows, even if the Schur complement
+    /// is used.
     fn factored(&mut self, c: &SparseMatrix) -> Result<&mut KeptRowSaddle, SaddleError> {
         if let Some(many) = self.many.as_mut().filter(|many| many.is_used) {
             many.is_used = false;
@@ -349,8 +352,8 @@ impl NullSpace {
         Ok(&mut self.saddle)
     }
 
-    /// Factors the rows of the last factorisation by the Schur complement as well, so that its
-    /// pivots can be compared with the pivots of the null-space solver.
+    /// Also factors the rows of the last factorisation by the Schur complement. The pivots of the
+    /// Schur complement can then be compared with the pivots of the null-space solver.
     fn keep_shares(&mut self, c: &SparseMatrix, mass: &[f64]) {
         let Some(many) = &mut self.many else { return };
         let usual = self.saddle.pivot_ratio();
@@ -362,7 +365,7 @@ impl NullSpace {
         }
     }
 
-    /// Number of entries of a basis of the free motions of the last factorisation.
+    /// Returns the number of entries of a basis of the free motions of the last factorisation.
     fn frame(&self) -> usize {
         let n = self.saddle.n_coordinates();
         (n - self.saddle.n_rows() + self.saddle.n_left_out()) * n

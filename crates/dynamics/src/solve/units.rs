@@ -1,6 +1,6 @@
-//! Units of a mechanism: lengths are divided by its size, rounded to a power of two so that scaling
-//! causes no rounding error. The module also computes the sizes and masses that decide whether
-//! solutions are refined.
+//! Units of a mechanism. Lengths are divided by the size of the mechanism, rounded to a power of
+//! two so that scaling causes no rounding error. The module also computes the sizes and masses that
+//! decide whether solutions are refined.
 
 use model::{Mechanism, System};
 
@@ -17,7 +17,7 @@ pub(super) struct ScaledVectors {
 }
 
 impl ScaledVectors {
-    /// Zero force and zero motion, with these units and masses.
+    /// Creates a zero force and a zero motion, with these units and masses.
     pub(super) fn new(units: Vec<f64>, mass: Vec<f64>) -> Self {
         Self {
             force: vec![0.0; units.len()],
@@ -56,10 +56,10 @@ pub(super) fn units(mechanism: &Mechanism, size: f64) -> Vec<f64> {
     exponents.iter().map(|&e| f64::from(e).exp2()).collect()
 }
 
-/// The unit of each column of C, chosen for each body. The unit of a translation is 1 m; a rotation
-/// is measured by the distance (m) by which it moves the joints of the body. For example, the links
-/// of a chain of a thousand metres then have masses of one order of magnitude. With the size of the
-/// chain as the unit, their moments of inertia would be negligible.
+/// Returns the unit of each column of C, chosen for each body. The unit of a translation is 1 m. A
+/// rotation is measured by the distance (m) by which it moves the joints of the body. For example,
+/// the links of a chain of a thousand metres then have masses of one order of magnitude. With the
+/// size of the chain as the unit, their moments of inertia would be negligible.
 fn units_of_bodies(mechanism: &Mechanism, size: f64) -> Vec<f64> {
     let (layout, space) = (mechanism.layout(), mechanism.space());
     let mut units = vec![1.0; layout.n_v];
@@ -70,9 +70,9 @@ fn units_of_bodies(mechanism: &Mechanism, size: f64) -> Vec<f64> {
     units
 }
 
-/// The length (m) of each body. It is the longest arm from the centre of mass to a point of a
-/// joint, or the largest radius of gyration if that is longer. The length is the size of the
-/// mechanism (m) if both lengths are zero or rounding errors.
+/// Returns the length (m) of each body. The length is the longest arm from the centre of mass to a
+/// point of a joint, or the largest radius of gyration if this radius is longer. If both lengths
+/// are zero or rounding errors, it is the size of the mechanism (m).
 fn lengths(mechanism: &Mechanism, size: f64) -> Vec<f64> {
     let space = mechanism.space();
     let gyration = |mass: &[f64]| {
@@ -101,16 +101,16 @@ fn lengths(mechanism: &Mechanism, size: f64) -> Vec<f64> {
     lengths
 }
 
-/// Masses and moments of inertia in these units.
+/// Returns masses and moments of inertia in these units.
 pub(super) fn mass_in_units(mechanism: &Mechanism, units: &[f64]) -> Vec<f64> {
     let mass = units.iter().zip(mechanism.mass());
     mass.map(|(unit, m)| unit * m * unit).collect()
 }
 
-/// Masses and moments of inertia if only holonomic rows are solved. Motions that only nonholonomic
-/// rows restrict are free in this case. Without mass or inertia, the mass metric defines no
-/// smallest correction for them. Therefore a coordinate without mass gets the smallest positive
-/// value of the other coordinates, or 1.
+/// Returns masses and moments of inertia if only holonomic rows are solved. In this case, motions
+/// that only nonholonomic rows restrict are free. If such a motion has no mass or inertia, the mass
+/// metric defines no smallest correction for it. Therefore a coordinate without mass gets the
+/// smallest positive value of the other coordinates, or 1.
 pub(super) fn mass_of_positions(mechanism: &Mechanism, units: &[f64]) -> Vec<f64> {
     let mut mass = mass_in_units(mechanism, units);
     let some = mass.iter().copied().filter(|&m| m > 0.0);
@@ -121,14 +121,15 @@ pub(super) fn mass_of_positions(mechanism: &Mechanism, units: &[f64]) -> Vec<f64
     mass
 }
 
-/// Whether the size of a mechanism (m) is far from the size of ordinary machines. Then the terms
-/// that are added, such as weights and centrifugal terms, also differ by many powers of ten.
+/// Returns whether the size of a mechanism (m) is far from the size of ordinary machines. In this
+/// case the terms that are added, such as weights and centrifugal terms, also differ by many powers
+/// of ten.
 pub(crate) fn is_far(size: f64) -> bool {
     !(1.0 / FAR_FROM_A_METRE..=FAR_FROM_A_METRE).contains(&size)
 }
 
-/// The largest mass divided by the smallest nonzero mass, scaled by the lengths of the bodies. This
-/// ratio decides whether solutions are refined.
+/// Returns the largest mass divided by the smallest nonzero mass, scaled by the lengths of the
+/// bodies. This ratio decides whether solutions are refined.
 pub(crate) fn mass_spread(mechanism: &Mechanism, size: f64) -> f64 {
     let units = units_of_bodies(mechanism, size);
     linalg::mass_spread(&mass_in_units(mechanism, &units))

@@ -1,5 +1,5 @@
 //! Switching between generated code and the interpreter. Generated code is used as long as its
-//! results are reliable at every stage and step; otherwise the interpreter continues from the last
+//! results are reliable at every stage and step. Otherwise the interpreter continues from the last
 //! accepted state. This module never ends a run. The module [`crate::code`] checks whether code
 //! belongs to a mechanism.
 //!
@@ -25,7 +25,7 @@ use crate::solve::{Accelerations, Doubt, GeneratedCode, KeptEquations, State};
 enum Phase {
     /// The generated code.
     Code,
-    /// The interpreter, which has not yet evaluated the last accepted states.
+    /// The interpreter. The interpreter has not yet evaluated the last accepted states.
     Waking,
     /// The interpreter, for this number of accepted steps.
     Interpreter(u64),
@@ -63,12 +63,12 @@ pub(crate) struct CodeSwitch<'m> {
     evaluations: u64,
     /// Number of accepted steps before generated code may be used again.
     patience: u64,
-    /// The last two states accepted with generated code, the last one first, and the number of
+    /// The last two states accepted with generated code, the last state first, and the number of
     /// these states.
     accepted: [AcceptedState; 2],
     n_accepted: usize,
     departure: Option<Departure>,
-    /// Work memory: accelerations of generated code that may be used again, n_v.
+    /// Work memory for accelerations of generated code that may be used again, n_v values.
     found: Vec<f64>,
 }
 
@@ -76,13 +76,14 @@ pub(crate) struct CodeSwitch<'m> {
 pub(crate) struct Departure {
     /// The event that reports the switch.
     pub(crate) event: Event,
-    /// Whether stages of the current step were evaluated by generated code, so that the step must
-    /// start again.
+    /// Whether stages of the current step were evaluated by generated code. In this case the step
+    /// must start again.
     pub(crate) is_within_step: bool,
 }
 
 impl<'m> CodeSwitch<'m> {
-    /// Creates the switch, which uses generated code from time t on, starting from the state q.
+    /// Creates the switch. The switch uses generated code from time t on, starting from the state
+    /// q.
     pub(crate) fn new(
         code: &'m dyn SceneCode,
         equations: &mut KeptEquations<'_>,
@@ -103,18 +104,18 @@ impl<'m> CodeSwitch<'m> {
         }
     }
 
-    /// The generated code, if it is in use.
+    /// Returns the generated code if it is in use.
     pub(crate) fn in_use(&mut self) -> Option<&mut GeneratedCode<'m>> {
         (self.phase == Phase::Code).then_some(&mut self.code)
     }
 
-    /// Whether generated code is in use.
+    /// Returns whether generated code is in use.
     pub(crate) fn is_in_use(&self) -> bool {
         self.phase == Phase::Code
     }
 
-    /// Accelerations for an evaluation of a run. Returns `false` if the interpreter must compute
-    /// them. If the generated code is unreliable, the motion stops using it.
+    /// Computes accelerations for an evaluation of a run. Returns `false` if the interpreter must
+    /// compute the accelerations. If the generated code is unreliable, the motion stops using it.
     pub(crate) fn evaluate(
         &mut self,
         state: State<'_>,
@@ -136,8 +137,8 @@ impl<'m> CodeSwitch<'m> {
         }
     }
 
-    /// Moves a state onto the constraint manifold by generated code; the state is unchanged if the
-    /// result is unreliable.
+    /// Moves a state onto the constraint manifold by generated code. If the result is unreliable,
+    /// the state is unchanged.
     pub(crate) fn project(
         &mut self,
         equations: &KeptEquations<'_>,
@@ -158,8 +159,8 @@ impl<'m> CodeSwitch<'m> {
         }
     }
 
-    /// Resets the predictions after a jump of the velocities at t, because earlier states cannot be
-    /// used for predictions.
+    /// Resets the predictions after a jump of the velocities at t, because states before the jump
+    /// cannot be used for predictions.
     pub(crate) fn restart(
         &mut self,
         equations: &mut KeptEquations<'_>,
@@ -177,8 +178,8 @@ impl<'m> CodeSwitch<'m> {
         self.departure.take()
     }
 
-    /// Predicts singular configurations from the last two states accepted with generated code, for
-    /// steps of the same length.
+    /// Predicts singular configurations from the last two states accepted with generated code. The
+    /// prediction is for steps of the same length.
     pub(crate) fn look_ahead(&self, equations: &KeptEquations<'_>, watch: &mut Monitors) {
         let [AcceptedState { t, q, v, a }, before] = &self.accepted;
         match self.n_accepted {
@@ -188,7 +189,8 @@ impl<'m> CodeSwitch<'m> {
     }
 
     /// Returns to generated code at an accepted, interpreted state far from singular
-    /// configurations, if its health has recovered and enough steps have passed.
+    /// configurations. This requires that the health of the code has recovered and that enough
+    /// steps have passed.
     pub(crate) fn come_back(
         &mut self,
         equations: &KeptEquations<'_>,
@@ -256,8 +258,8 @@ impl<'m> CodeSwitch<'m> {
         });
     }
 
-    /// Passes the last accepted states of generated code to the interpreter, if this has not been
-    /// done.
+    /// Passes the last accepted states of generated code to the interpreter, if this has not yet
+    /// been done.
     pub(crate) fn wake_up(
         &mut self,
         equations: &mut KeptEquations<'_>,

@@ -1,5 +1,5 @@
 //! Exchange of independent rows that have become ill-conditioned although the rank stays the same.
-//! It occurs only at accepted and corrected states, and the motion does not change.
+//! Rows are exchanged only at accepted and corrected states, and the motion does not change.
 
 use model::System;
 use model::words::listed;
@@ -22,13 +22,14 @@ pub(crate) struct Exchange {
 enum Velocity {
     /// The rows requested by the user, which are well-conditioned again.
     Requested,
-    /// Rows other than the current ones; the flag states whether the user requested the current
+    /// Rows other than the current rows. The flag states whether the user requested the current
     /// rows.
     Others(Box<KeptRows>, bool),
 }
 
 impl Exchange {
-    /// Checks the pivots at a settled position with coordinates q, at which the rows are factored.
+    /// Checks the pivots at a settled position with coordinates q. The rows must be factored at
+    /// this position.
     pub(super) fn due(
         equations: &mut KeptEquations<'_>,
         choice: &RowChoice,
@@ -56,9 +57,10 @@ impl Exchange {
         Ok(is_due.then_some(Self { position, velocity }))
     }
 
-    /// The check for redundant rows that are violated within a stated tolerance. An exchange then
-    /// moves the mechanism by about this violation, so rows are exchanged only if they have become
-    /// ill-conditioned. Without nonholonomic rows both levels have the same independent rows.
+    /// Returns the decision if redundant rows are violated within a stated tolerance. An exchange
+    /// moves the mechanism by about this violation. Therefore rows are exchanged only if they have
+    /// become ill-conditioned. Without nonholonomic rows both levels have the same independent
+    /// rows.
     fn due_within_tolerance(
         equations: &mut KeptEquations<'_>,
         q: &[f64],
@@ -134,16 +136,16 @@ impl Exchange {
     }
 }
 
-/// Whether [`Exchange::due`] must make a decision for freshly factored rows.
+/// Returns whether [`Exchange::due`] must make a decision for freshly factored rows.
 pub(super) fn may_be_due(equations: &mut KeptEquations<'_>, choice: &RowChoice) -> bool {
     equations.requested_rows.is_some()
         || position_wants_exchange(equations)
         || want_exchange(equations, choice)
 }
 
-/// Rows with smaller coefficients in the redundant rows than the current independent rows have, at
-/// a settled output row. Between two steps, the mechanism may reach configurations for which the
-/// current rows are not suitable.
+/// Returns rows whose coefficients in the redundant rows are smaller than those of the current
+/// independent rows, at a settled output row. Between two steps, the mechanism may reach
+/// configurations for which the current rows are not suitable.
 pub(super) fn better_for_row(
     equations: &mut KeptEquations<'_>,
     choice: &RowChoice,
@@ -156,7 +158,7 @@ pub(super) fn better_for_row(
     better(at, decide_rows(at.mechanism, &at.s, q), old)
 }
 
-/// Like [`better_for_row`], for the rows that determine the position.
+/// Works like [`better_for_row`], for the rows that determine the position.
 pub(super) fn better_position_for_row(
     equations: &mut KeptEquations<'_>,
     q: &[f64],
@@ -168,7 +170,7 @@ pub(super) fn better_position_for_row(
     better(at, decide_holonomic_rows(at.mechanism, &at.s, q), old)
 }
 
-/// Whether an output row uses the current independent rows without a search for others.
+/// Returns whether an output row uses the current independent rows without a search for other rows.
 fn suit_output(equations: &KeptEquations<'_>) -> bool {
     !GUARDED || equations.have_missed() || are_sound(&equations.velocity)
 }
@@ -178,8 +180,8 @@ fn requested_rows_recovered(equations: &mut KeptEquations<'_>) -> bool {
     requested.is_some_and(|rows| rows.factor(&equations.at).is_ok() && are_recovered(rows))
 }
 
-/// Freshly factored independent rows of a new decision, if they have the same rank as the old ones
-/// and smaller coefficients in the redundant rows. A different rank belongs to a singular
+/// Returns freshly factored independent rows of a new decision, if they have the same rank as the
+/// old rows and smaller coefficients in the redundant rows. A different rank belongs to a singular
 /// configuration nearby, not to the motion.
 fn better<E: std::fmt::Display>(
     at: &Evaluation<'_>,

@@ -2,14 +2,15 @@
 //! independent rows are dependent for an instant, and branches of the motion may meet. A step may
 //! then end on another branch although every residual is a rounding error.
 //!
-//! The accelerations there are quotients whose numerator and denominator both vanish. At the
-//! distance σ, a relative pivot, a constraint violation δ of a stage causes an error δ/σ, and
-//! rounding causes eps/σ². Therefore stages near a singular configuration are moved onto the
-//! constraint manifold before their evaluation. Steps are chosen such that the configuration is
-//! between two stages ([`Passage::expected`]), and rows with relative pivots below 1e-6 are left
-//! out of the solution. A step must not end so close that a projection could not distinguish the
-//! branches. A step over a singular configuration is accepted only if its correction is small
-//! relative to the distance of the branches. Thus the run continues on the smooth branch.
+//! The accelerations at a singular configuration are quotients whose numerator and denominator both
+//! vanish. Let the distance σ from the configuration be a relative pivot. A constraint violation δ
+//! of a stage then causes an error δ/σ, and rounding causes an error eps/σ². Therefore stages near
+//! a singular configuration are moved onto the constraint manifold before their evaluation. Steps
+//! are chosen such that the configuration is between two stages ([`Passage::expected`]), and rows
+//! with relative pivots below 1e-6 are left out of the solution. A step must not end so close that
+//! a projection could not distinguish the branches. A step over a singular configuration is
+//! accepted only if its correction is small relative to the distance of the branches. Thus the run
+//! continues on the smooth branch.
 
 use crate::guards::GUARDED;
 use crate::limits::{KINK, SUSPECT};
@@ -25,7 +26,7 @@ pub(crate) struct Now<'a> {
 }
 
 /// Data of the last accepted step: a basis of the possible motions, and the sign of the determinant
-/// of the independent rows bordered by this basis. It also contains the smallest pivot of the
+/// of the independent rows bordered by this basis. The data also contain the smallest pivot of the
 /// stages since this step.
 #[derive(Default)]
 pub(crate) struct Passage {
@@ -48,17 +49,17 @@ struct Entry {
 }
 
 impl Passage {
-    /// Time of the last accepted step.
+    /// Returns the time of the last accepted step.
     pub(crate) fn since(&self) -> f64 {
         self.t
     }
 
-    /// Relative pivot at the last accepted step.
+    /// Returns the relative pivot at the last accepted step.
     pub(super) fn pivot(&self) -> f64 {
         self.pivot
     }
 
-    /// Time at which the pivots vanish if the pivots of the last two accepted steps are
+    /// Returns the time at which the pivots vanish if the pivots of the last two accepted steps are
     /// extrapolated linearly.
     pub(super) fn expected(&self) -> Option<f64> {
         (self.rate < 0.0).then(|| self.t - self.pivot / self.rate)
@@ -73,15 +74,15 @@ impl Passage {
         self.lowest = Some(self.lowest.map_or(pivot, |lowest| lowest.min(pivot)));
     }
 
-    /// Whether the determinant of freshly factored rows has changed its sign since the last
+    /// Returns whether the determinant of freshly factored rows has changed its sign since the last
     /// accepted step.
     pub(super) fn is_beyond(&self, rows: &mut KeptRows) -> bool {
         self.sign * rows.orientation(&self.frame) < 0.0
     }
 
-    /// Whether velocities v at time t, with accelerations a and the weights `mass`, continue the
-    /// velocities before the singular configuration. On another branch they have another direction.
-    /// The function is called when the rows have good pivots again.
+    /// Returns whether velocities v at time t, with accelerations a and the weights `mass`,
+    /// continue the velocities before the singular configuration. On another branch the velocities
+    /// have another direction. The function is called when the rows have good pivots again.
     pub(super) fn is_continued_by(&self, Now { t, v, a, .. }: Now<'_>, mass: &[f64]) -> bool {
         let Some(entry) = &self.entry else {
             return true;
@@ -97,7 +98,7 @@ impl Passage {
         kink <= KINK * (speed + change)
     }
 
-    /// Stores an accepted state as the last one before pivots become small.
+    /// Stores an accepted state as the last state before pivots become small.
     pub(super) fn enter(&mut self, Now { t, v, a, .. }: Now<'_>) {
         let entry = self.entry.get_or_insert_with(|| Entry {
             t,
@@ -114,7 +115,7 @@ impl Passage {
         self.entry = None;
     }
 
-    /// Whether a step that ends at freshly factored rows may have moved through a singular
+    /// Returns whether a step that ends at freshly factored rows may have moved through a singular
     /// configuration.
     pub(super) fn is_suspect(&self, rows: &mut KeptRows) -> bool {
         self.lowest.is_some_and(|lowest| lowest < SUSPECT) || self.is_beyond(rows)

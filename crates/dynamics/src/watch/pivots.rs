@@ -1,4 +1,4 @@
-//! Classification of independent rows by their pivots, for freshly factored rows.
+//! Classification of freshly factored independent rows by their pivots.
 
 use crate::limits::{
     DELICATE, LARGE_COEFFICIENT, PARTITION_WORN, PIVOT_LOSS, PIVOT_RECOVERY, SOUND, WORTH_EXCHANGE,
@@ -6,14 +6,14 @@ use crate::limits::{
 use crate::options::RowChoice;
 use crate::solve::{Evaluation, KeptEquations, KeptRows};
 
-/// Whether the motion is so close to a singular configuration that stages must satisfy the
+/// Returns whether the motion is so close to a singular configuration that stages must satisfy the
 /// constraints. A constraint violation δ causes an acceleration error of δ divided by the relative
 /// pivot.
 pub(crate) fn are_delicate(rows: &KeptRows) -> bool {
     rows.relative_pivot() < DELICATE
 }
 
-/// Whether a new partition is needed.
+/// Returns whether a new partition is needed.
 pub(crate) fn are_worn(equations: &KeptEquations<'_>) -> bool {
     let worn = |rows: &KeptRows| {
         let chosen = rows.partition_pivot();
@@ -22,38 +22,39 @@ pub(crate) fn are_worn(equations: &KeptEquations<'_>) -> bool {
     worn(&equations.velocity) || worn(&equations.position) || equations.requested_rows.is_some()
 }
 
-/// Whether the pivots are so large that output rows satisfy the redundant rows accurately. In this
-/// case no other independent rows are considered for the output rows.
+/// Returns whether the pivots are so large that output rows satisfy the redundant rows accurately.
+/// In this case no other independent rows are considered for the output rows.
 pub(super) fn are_sound(rows: &KeptRows) -> bool {
     rows.relative_pivot() >= SOUND
 }
 
-/// Whether the requested rows are as well-conditioned as before.
+/// Returns whether the requested rows are as well-conditioned as before.
 pub(super) fn are_recovered(rows: &KeptRows) -> bool {
     rows.relative_pivot() > PIVOT_RECOVERY
 }
 
-/// Whether other independent rows should be considered. Rows chosen by the user are used as long as
-/// possible.
+/// Returns whether other independent rows should be considered. Rows chosen by the user are used as
+/// long as possible.
 pub(super) fn want_exchange(equations: &mut KeptEquations<'_>, choice: &RowChoice) -> bool {
     let (rows, at) = (&mut equations.velocity, &equations.at);
     are_lost(rows) || *choice == RowChoice::Automatic && are_poor(rows, at)
 }
 
-/// Like [`want_exchange`], for the rows that determine the position, which the user does not
-/// choose. A projection without corrections does not factor them.
+/// Works like [`want_exchange`], for the rows that determine the position. The user does not choose
+/// these rows. A projection without corrections does not factor them.
 pub(super) fn position_wants_exchange(equations: &mut KeptEquations<'_>) -> bool {
     let (rows, at) = (&mut equations.position, &equations.at);
     !rows.dropped.is_empty() && rows.factor(at).is_ok() && (are_lost(rows) || are_poor(rows, at))
 }
 
-/// Whether the rows have become ill-conditioned since they were chosen, and other rows exist.
+/// Returns whether the rows have become ill-conditioned since they were chosen, and whether other
+/// rows exist.
 pub(super) fn are_lost(rows: &KeptRows) -> bool {
     !rows.dropped.is_empty() && rows.relative_pivot() < PIVOT_LOSS
 }
 
-/// Whether the coefficients of the rows in the redundant rows are large, and have become larger
-/// since a search found no better rows.
+/// Returns whether the coefficients of the rows in the redundant rows are large, and have become
+/// larger since a search found no better rows.
 fn are_poor(rows: &mut KeptRows, at: &Evaluation<'_>) -> bool {
     if rows.dropped.is_empty() {
         return false;
@@ -71,8 +72,8 @@ mod tests {
     use joints::{Line, PointOnLine};
     use model::{Body, Description, Mechanism, StartOptions};
 
-    /// A beam on rollers at 0, ε and 1, of which the last row is redundant:
-    /// `row 2 = (1 − 1/ε)·row 0 + 1/ε·row 1`.
+    /// A beam on rollers at 0, ε and 1. The last row is redundant: `row 2 = (1 − 1/ε)·row 0 +
+    /// 1/ε·row 1`.
     #[test]
     fn rows_that_multiply_their_rounding_are_exchanged() {
         for (epsilon, wants) in [(0.2, false), (0.05, true)] {
@@ -92,7 +93,7 @@ mod tests {
             equations.factor_at(0.0, &p.q).expect("independent rows");
             let found = want_exchange(&mut equations, &RowChoice::Automatic);
             assert_eq!(found, wants, "{epsilon}");
-            // A search without a result is not repeated at once.
+            // A search without a result is not repeated immediately.
             let rows = &mut equations.velocity;
             rows.unavoidable = rows.largest_coefficient(&equations.at);
             assert!(!want_exchange(&mut equations, &RowChoice::Automatic));

@@ -1,5 +1,5 @@
 //! Searches the dense output of an accepted step for singular configurations. The result is the
-//! time and the number of dependent rows of each of them.
+//! time and the number of dependent rows of each singular configuration.
 
 use model::System;
 use solvability::along::search::{minimum, root};
@@ -15,19 +15,19 @@ use crate::solve::{Evaluation, KeptEquations, KeptRows};
 pub(crate) struct Singular {
     /// Time (s).
     pub(crate) t: f64,
-    /// Number of independent rows that are dependent at the singular configuration; in a reported
-    /// event, the loss of rank.
+    /// Number of independent rows that are dependent at the singular configuration. In a reported
+    /// event, it is the loss of rank.
     pub(crate) dependent: usize,
 }
 
-/// The largest change between neighbouring values.
+/// Returns the largest change between neighbouring values.
 fn steepest(pivots: &[f64]) -> f64 {
     let changes = pivots.windows(2).map(|w| (w[1] - w[0]).abs());
     changes.fold(0.0, f64::max)
 }
 
-/// The time at which a motion from the last accepted state `now` will be singular, if its pivots
-/// vanish near the expected time.
+/// Returns the time at which a motion from the last accepted state `now` will be singular, if its
+/// pivots vanish near the expected time.
 pub(super) fn foresee(equations: &KeptEquations<'_>, now: Now<'_>, expected: f64) -> Option<f64> {
     let noise = VANISHES * equations.velocity.relative_pivot();
     let mut way = vec![0.0; now.v.len()];
@@ -55,7 +55,7 @@ pub(crate) struct SingularitySearch<'m> {
 }
 
 impl<'m> SingularitySearch<'m> {
-    /// Uses the current rows, with separate storage for intermediate results.
+    /// Creates a search with the current rows, with separate storage for intermediate results.
     pub(crate) fn new(equations: &KeptEquations<'m>) -> Self {
         Self {
             at: equations.at.clone(),
@@ -63,9 +63,9 @@ impl<'m> SingularitySearch<'m> {
         }
     }
 
-    /// Whether the pivots fall, or the bordered determinant has changed its sign, at one of a few
-    /// times. Each time costs a factorisation, until the result is true. Returns `true` in case of
-    /// doubt.
+    /// Returns whether the pivots fall, or the bordered determinant has changed its sign, at one of
+    /// a few times. Each time costs a factorisation, until the result is true. Returns `true` in
+    /// case of doubt.
     fn is_promising(
         &mut self,
         [now, end]: [f64; 2],
@@ -86,7 +86,7 @@ impl<'m> SingularitySearch<'m> {
         })
     }
 
-    /// Smallest pivot at a time, relative to the reference.
+    /// Returns the smallest pivot at a time, relative to the reference.
     fn pivot_at(
         &mut self,
         t: f64,
@@ -99,9 +99,9 @@ impl<'m> SingularitySearch<'m> {
         factored.ok().map(|()| self.rows.relative_pivot())
     }
 
-    /// The singular configuration between t0 and t1, if there is one. It is at a change of sign of
-    /// the bordered determinant, or at a minimum of the smallest relative pivot below `noise`.
-    /// `state` returns the coordinates at a time.
+    /// Returns the singular configuration between t0 and t1, if there is one. The configuration is
+    /// at a change of sign of the bordered determinant, or at a minimum of the smallest relative
+    /// pivot below `noise`. `state` must return the coordinates at a time.
     pub(crate) fn find(
         &mut self,
         [t0, t1]: [f64; 2],
@@ -140,8 +140,8 @@ impl<'m> SingularitySearch<'m> {
                 let enough = SHARP * (interval[1] - interval[0]);
                 let least = minimum(interval, noise, enough, |t| at(t, self).ok_or(()));
                 let (t, pivot) = least.ok()??;
-                // A pivot that falls up to an end of the searched interval, without rising again,
-                // has no minimum.
+                // A pivot has no minimum if it falls up to an end of the searched interval without
+                // rising again.
                 if pivot > RISES * pivots[k - 1].min(pivots[k + 1]) {
                     return None;
                 }
@@ -160,9 +160,10 @@ impl<'m> SingularitySearch<'m> {
         })
     }
 
-    /// Loss of rank of all rows at a configuration at which the independent rows lose rank. The
-    /// loss may be smaller, because other rows may replace the independent rows that become
-    /// dependent. In case of doubt, both losses count as equal.
+    /// Returns the loss of rank of all rows at a configuration at which the independent rows lose
+    /// rank. The loss may be smaller than that of the independent rows, because other rows may
+    /// replace the independent rows that become dependent. In case of doubt, both losses count as
+    /// equal.
     pub(crate) fn rank_lost(
         &mut self,
         Singular { t, dependent }: Singular,
@@ -182,8 +183,8 @@ impl<'m> SingularitySearch<'m> {
         }
     }
 
-    /// The event that reports the configuration; `uniqueness` states whether the motion is unique
-    /// at this configuration.
+    /// Returns the event that reports the configuration. `uniqueness` states whether the motion is
+    /// unique at this configuration.
     pub(crate) fn event(&self, singular: Singular, uniqueness: &str) -> Event {
         let redundancy = self.rows.dropped.len();
         let Singular { t, dependent } = singular;
@@ -210,8 +211,9 @@ impl<'m> SingularitySearch<'m> {
 mod tests {
     use super::*;
 
-    /// A pivot that falls to zero like a square root between two instants is steeper there than its
-    /// changes between instants show. The factor is 1/(√3 − 1) if it vanishes in the middle.
+    /// A pivot falls to zero like a square root between two instants. Near zero its change is
+    /// steeper than its changes between instants show. The factor is 1/(√3 − 1) if the pivot
+    /// vanishes in the middle.
     #[test]
     fn a_pivot_that_vanishes_as_a_root_is_searched_for() {
         for middle in 0..=10 {
@@ -223,7 +225,7 @@ mod tests {
         }
     }
 
-    /// A pivot that changes by a sixth of its smallest value between instants stays away from zero.
+    /// A pivot that changes by a sixth of its smallest value between instants does not become zero.
     #[test]
     fn a_pivot_that_hardly_changes_is_not_searched_for() {
         let pivots = [4.0, 3.5, 3.0, 3.5, 4.0].map(|x: f64| x / 3.0);

@@ -3,9 +3,10 @@
 //!
 //! Near a singular configuration, stages are moved onto the constraint manifold before their
 //! evaluation, and steps are chosen such that the configuration is between two stages. A step must
-//! not end so close to it that a projection could not distinguish the branches. A step over it is
-//! accepted only if its correction is small relative to the distance of the branches and its
-//! velocities continue the velocities before it.
+//! not end so close to the configuration that a projection could not distinguish the branches. A
+//! step over the configuration is accepted under two conditions. The correction of the step must be
+//! small relative to the distance of the branches. The velocities after the step must continue the
+//! velocities before the step.
 
 use integrators::Delicate;
 use model::System;
@@ -32,13 +33,13 @@ pub(crate) enum Next {
     Reject,
     /// The step is accepted with other independent rows.
     Keep(Box<Exchange>),
-    /// The step is rejected; if no shorter step is accepted, the run stops with this fault.
+    /// The step is rejected. If no shorter step is accepted, the run stops with this fault.
     Stop(MotionFault),
 }
 
 impl Next {
-    /// The exchange of rows to carry out if the step is accepted, or the result that rejects the
-    /// step.
+    /// Returns the exchange of rows that must be carried out if the step is accepted, or the result
+    /// that rejects the step.
     pub(crate) fn stands(self) -> Result<Option<Box<Exchange>>, Self> {
         match self {
             Self::Accept => Ok(None),
@@ -66,7 +67,7 @@ pub(crate) struct Monitors {
     pub(crate) is_suspect: bool,
     /// Expected time of the next singular configuration.
     pub(super) delicate: Option<f64>,
-    /// The last time at which a step was rejected because of a redundant row, with the fault.
+    /// The last time at which a step was rejected because of a redundant row, and the fault.
     contradicted: Option<(f64, MotionFault)>,
 }
 
@@ -84,24 +85,24 @@ impl Monitors {
         }
     }
 
-    /// Relative pivot below which this run treats a pivot as zero. Steps must not end closer than
-    /// this to a singular configuration, unless a break time requires it.
+    /// Returns the relative pivot below which this run treats a pivot as zero. A step must not end
+    /// closer than this distance to a singular configuration, unless a break time requires it.
     pub(crate) fn nearest(&self) -> f64 {
         (NEAREST_TOLERANCES * self.rtol).clamp(NEAREST, NEAREST_MAX)
     }
 
-    /// Relative pivot below which reactions are not reported.
+    /// Returns the relative pivot below which reactions are not reported.
     pub(crate) fn blind(&self) -> f64 {
         (NO_REACTIONS_TOLERANCES * self.rtol).clamp(NO_REACTIONS, NO_REACTIONS_MAX)
     }
 
-    /// Expected time of a singular configuration.
+    /// Returns the expected time of a singular configuration.
     pub(crate) fn delicate_time(&self) -> Option<f64> {
         self.delicate
     }
 
-    /// Expected time of a singular configuration of a mechanism of this size (m), and the factor by
-    /// which steps over it may exceed their tolerance.
+    /// Returns the expected time of a singular configuration of a mechanism of this size (m), and
+    /// the factor by which steps over it may exceed their tolerance.
     pub(crate) fn delicate(&self, size: f64) -> Option<Delicate> {
         self.delicate.map(|t| Delicate {
             t,
@@ -110,9 +111,9 @@ impl Monitors {
         })
     }
 
-    /// Whether a step must not end at t, at freshly factored rows. Steps must end at break times
-    /// and at the end of the run, whatever the configuration. A step that suddenly approaches a
-    /// singular configuration should end farther away from it.
+    /// Returns whether a step must not end at t, at freshly factored rows. Steps must end at break
+    /// times and at the end of the run, at any configuration. A step that suddenly approaches a
+    /// singular configuration should end farther away from the configuration.
     pub(crate) fn judge_place(
         &self,
         equations: &KeptEquations<'_>,
@@ -126,8 +127,8 @@ impl Monitors {
         if pivot < self.nearest() {
             return Next::Stop(self.no_way_over(t));
         }
-        // The next step over the singular configuration would start so close to it that its stages
-        // are mostly rounding errors.
+        // The next step over the singular configuration would start so close to the configuration
+        // that its stages are mostly rounding errors.
         let fell = pivot < FALLEN * self.passage.pivot();
         if fell && pivot < NEARBY * self.nearest() {
             Next::Reject
@@ -136,8 +137,8 @@ impl Monitors {
         }
     }
 
-    /// Decides which rows are independent rows at a settled position, at which the rows are
-    /// factored.
+    /// Decides which rows are independent rows at a settled position. The rows must be factored at
+    /// this position.
     pub(crate) fn judge_rows(&self, equations: &mut KeptEquations<'_>, q: &[f64]) -> Next {
         match Exchange::due(equations, &self.choice, q) {
             Ok(Some(exchange)) => Next::Keep(Box::new(exchange)),
@@ -146,13 +147,13 @@ impl Monitors {
         }
     }
 
-    /// Whether [`Monitors::judge_rows`] must make a decision for freshly factored rows.
+    /// Returns whether [`Monitors::judge_rows`] must make a decision for freshly factored rows.
     pub(crate) fn may_exchange(&self, equations: &mut KeptEquations<'_>) -> bool {
         exchange::may_be_due(equations, &self.choice)
     }
 
-    /// Rows that determine the position of an output row better than the rows of the surrounding
-    /// steps.
+    /// Returns rows that determine the position of an output row better than the rows of the
+    /// surrounding steps.
     pub(crate) fn position_rows_for_output(
         &self,
         equations: &mut KeptEquations<'_>,
@@ -161,7 +162,8 @@ impl Monitors {
         exchange::better_position_for_row(equations, q)
     }
 
-    /// Rows that are more suitable for an output row than the rows of the surrounding steps.
+    /// Returns rows that are more suitable for an output row than the rows of the surrounding
+    /// steps.
     pub(crate) fn rows_for_output(
         &self,
         equations: &mut KeptEquations<'_>,
@@ -170,7 +172,7 @@ impl Monitors {
         exchange::better_for_row(equations, &self.choice, q)
     }
 
-    /// Stores an event; it is reported when the step is accepted.
+    /// Stores an event. The event is reported when the step is accepted.
     pub(crate) fn tell_later(&mut self, event: Option<Event>) {
         self.pending = event.or(self.pending.take());
     }
@@ -186,14 +188,15 @@ impl Monitors {
         }
     }
 
-    /// The redundant row that caused the collapse of the step size at time t. The small steps
-    /// accepted before a contradiction are valid and do not show the contradiction.
+    /// Returns the redundant row that caused the collapse of the step size at time t. The small
+    /// steps accepted before a contradiction are valid and do not show the contradiction.
     pub(crate) fn contradiction(&mut self, t: f64) -> Option<MotionFault> {
         let (end, fault) = self.contradicted.take()?;
         (end - t <= JUST_AHEAD * self.t_end).then_some(fault)
     }
 
-    /// Whether a step to freshly factored rows may have moved through a singular configuration.
+    /// Returns whether a step to freshly factored rows may have moved through a singular
+    /// configuration.
     pub(crate) fn may_have_passed(
         &self,
         equations: &mut KeptEquations<'_>,
@@ -203,7 +206,7 @@ impl Monitors {
         is_foreseen || GUARDED && self.passage.is_suspect(&mut equations.velocity)
     }
 
-    /// Whether the last accepted step ended far from singular configurations.
+    /// Returns whether the last accepted step ended far from singular configurations.
     pub(crate) fn came_from_afar(&self) -> bool {
         self.passage.pivot() >= SUSPECT
     }
@@ -226,8 +229,8 @@ impl Monitors {
     }
 
     /// Checks the velocities and accelerations at the end of a step. After a singular configuration
-    /// they must continue the velocities and accelerations before it. If the motion is still close
-    /// to the singular configuration, the check is postponed.
+    /// they must continue the velocities and accelerations before the configuration. If the motion
+    /// is still close to the configuration, the check is postponed.
     pub(crate) fn judge_motion(
         &mut self,
         equations: &KeptEquations<'_>,
@@ -247,10 +250,10 @@ impl Monitors {
         Next::Accept
     }
 
-    /// The time of a singular configuration just ahead that was not predicted: its pivots grew up
-    /// to the last step and have fallen within this step. The step is repeated with this
-    /// prediction, so that the step over the singular configuration starts farther away. There,
-    /// rounding errors do not yet dominate the stages.
+    /// Returns the time of a singular configuration just ahead that was not predicted. The pivots
+    /// at this configuration grew up to the last step and have fallen within this step. The step is
+    /// repeated with this prediction, so that the step over the singular configuration starts
+    /// farther away. At a larger distance, rounding errors do not yet dominate the stages.
     fn came_upon(&self, equations: &KeptEquations<'_>, now: Now<'_>) -> Option<f64> {
         let (before, pivot) = (self.passage.pivot(), equations.velocity.relative_pivot());
         if !GUARDED || self.delicate.is_some() || pivot >= FALLEN * before.min(1.0) {
@@ -267,7 +270,7 @@ impl Monitors {
         }
     }
 
-    /// Stores the state just evaluated as the end of an accepted step; returns the event since the
+    /// Stores the state just evaluated as the end of an accepted step. Returns the event since the
     /// last accepted step.
     pub(crate) fn accept(
         &mut self,
@@ -280,8 +283,8 @@ impl Monitors {
         self.pending.take()
     }
 
-    /// Predicts singular configurations from an accepted state, for several steps like the last
-    /// one.
+    /// Predicts singular configurations from an accepted state. The prediction covers several steps
+    /// as long as the last step.
     pub(crate) fn look_ahead(&mut self, equations: &KeptEquations<'_>, now: Now<'_>, step: f64) {
         let t_last = now.t + FORESIGHT * step;
         let known = self.delicate.filter(|&known| known > now.t);
@@ -289,7 +292,7 @@ impl Monitors {
         self.delicate = expected.and_then(|expected| search::foresee(equations, now, expected));
     }
 
-    /// The fault for a step to t over a singular configuration that is rejected.
+    /// Returns the fault for a step to t over a singular configuration that is rejected.
     pub(crate) fn no_way_over(&self, t: f64) -> MotionFault {
         MotionFault::SingularPassage {
             from: self.passage.since(),
@@ -303,8 +306,8 @@ mod tests {
     use super::*;
 
     /// A row with a motion error equal to the tolerance has a reaction error of tolerance/pivot.
-    /// Reported reactions are accurate to three digits, if the tolerance is neither loose nor near
-    /// the rounding error. Two digits are enough to distinguish branches.
+    /// Reported reactions are accurate to three digits if the tolerance is neither loose nor near
+    /// the rounding error. Two digits are sufficient to distinguish branches.
     #[test]
     fn pivots_are_compared_with_what_the_tolerance_leaves_of_them() {
         for (rtol, nearest, blind) in [
@@ -324,8 +327,8 @@ mod tests {
         }
     }
 
-    /// A step that was rejected just ahead of the present time explains why the run cannot
-    /// continue; a step that was rejected farther away does not.
+    /// A step that was rejected just ahead of the present time is the reason why the run cannot
+    /// continue. A step that was rejected farther away is not the reason.
     #[test]
     fn a_contradiction_just_ahead_is_why_a_run_stops() {
         for (ahead, is_why) in [(0.7e-9, true), (1.4e-9, false)] {
