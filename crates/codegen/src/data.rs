@@ -1,6 +1,6 @@
-//! The data of a constraint: the values that it stores, and its derivatives with respect to each of
-//! them. A value that is computed from other values is not a datum, because its derivative follows
-//! from the derivatives of those values by the chain rule.
+//! The data of a constraint: the values that the constraint stores, and the derivatives with
+//! respect to each of these values. A value that is computed from other values is not a datum,
+//! because its derivative follows from the derivatives of the other values by the chain rule.
 
 use proc_macro2::Ident;
 use quote::format_ident;
@@ -12,7 +12,7 @@ use crate::identity;
 use crate::parse::{Definition, Kept, ParamKind};
 use crate::vector::cross;
 
-/// Values that form one quantity, such as the two components of a point.
+/// A datum: the values that form one quantity, such as the two components of a point.
 #[derive(Clone)]
 pub(crate) struct Datum {
     /// Name of the datum in the specification.
@@ -27,8 +27,8 @@ pub(crate) struct Datum {
 }
 
 impl Datum {
-    /// Number of independent components. Axes have three, which form a rotation vector; an angle
-    /// stored by its cosine and sine has one.
+    /// Returns the number of independent components. Axes have three components, which form a
+    /// rotation vector. An angle that is stored by its cosine and sine has one component.
     pub(crate) fn count(&self) -> usize {
         match self.shape {
             Shape::Axes(_) => 3,
@@ -43,19 +43,19 @@ impl Datum {
 pub(crate) enum Shape {
     Point(Ident),
     Direction(Ident),
-    /// Axes, represented by nine symbols; the components of the datum form a rotation vector.
+    /// Axes are represented by nine symbols. The components of the datum form a rotation vector.
     Axes(Ident),
     Line,
     Plane,
     /// A single value with its unit, and its index if it belongs to a list.
     Number(Ident, Option<usize>),
     Kept(Ident),
-    /// An angle stored by its cosine and sine; the datum is a change of the angle.
+    /// An angle is stored by its cosine and sine. The datum is a change of the angle.
     Turn,
     KeptVector(Ident),
 }
 
-/// The data in order: parameters, followed by values stored at the start.
+/// Returns the data in order: the parameters, then the values stored at the start.
 pub(crate) fn stored(d: &Definition, model: &Model) -> Vec<Datum> {
     let mut data = Vec::new();
     for p in &d.params {
@@ -115,7 +115,7 @@ pub(crate) fn stored(d: &Definition, model: &Model) -> Vec<Datum> {
     data
 }
 
-/// The initial value of the joint coordinate of a drive.
+/// Returns the initial value of the joint coordinate of a drive.
 pub(crate) fn of_measure(model: &Model, unit: Ident) -> Datum {
     Datum {
         name: "measure_0".to_owned(),
@@ -126,7 +126,7 @@ pub(crate) fn of_measure(model: &Model, unit: Ident) -> Datum {
     }
 }
 
-/// The initial angle of the joint coordinate of a drive in space.
+/// Returns the initial angle of the joint coordinate of a drive in space.
 pub(crate) fn of_turn(model: &Model) -> Datum {
     Datum {
         name: "measure_0".to_owned(),
@@ -137,7 +137,7 @@ pub(crate) fn of_turn(model: &Model) -> Datum {
     }
 }
 
-/// The derivation with respect to each component of the data, in order.
+/// Returns the derivation with respect to each component of the data, in order.
 pub(crate) fn derivations(model: &mut Model, data: &[Datum]) -> Vec<Along> {
     let mut all = Vec::new();
     for datum in data {
@@ -148,7 +148,7 @@ pub(crate) fn derivations(model: &mut Model, data: &[Datum]) -> Vec<Along> {
     all
 }
 
-/// The images of the symbols of a datum for its component `k`.
+/// Returns the images of the symbols of a datum for its component `k`.
 fn images(model: &mut Model, datum: &Datum, k: usize) -> Vec<(Expr, Expr)> {
     let g = &mut model.g;
     match datum.shape {
@@ -170,8 +170,8 @@ fn images(model: &mut Model, datum: &Datum, k: usize) -> Vec<(Expr, Expr)> {
     }
 }
 
-/// The derivation with respect to one component of a datum. The image of each computed value is its
-/// derivative, which is computed with the images of the values before it.
+/// Returns the derivation with respect to one component of a datum. The image of each computed
+/// value is its derivative. This derivative is computed with the images of all earlier values.
 fn by(model: &mut Model, datum: &Datum, k: usize) -> Along {
     let mut images = images(model, datum, k);
     let mut along = model.inputs.derivation(&model.g, &images);
@@ -192,7 +192,7 @@ fn by(model: &mut Model, datum: &Datum, k: usize) -> Along {
     along
 }
 
-/// The inputs of the constraint in these expressions, in the order of their symbols.
+/// Returns the inputs of the constraint in these expressions, in the order of their symbols.
 pub(crate) fn read_by<'e>(model: &Model, outputs: impl Iterator<Item = &'e Expr>) -> Vec<Symbol> {
     let mut stored: Vec<Symbol> = outputs.flat_map(|&e| model.g.inputs(e)).collect();
     stored.sort_unstable();
@@ -201,8 +201,8 @@ pub(crate) fn read_by<'e>(model: &Model, outputs: impl Iterator<Item = &'e Expr>
     stored
 }
 
-/// The nonzero derivatives of stored values with respect to the data: index of the stored value,
-/// index of the datum, derivative.
+/// Returns the nonzero derivatives of stored values with respect to the data. Each entry contains
+/// the index of the stored value, the index of the datum and the derivative.
 pub(crate) fn slopes(
     model: &mut Model,
     stored: &[Symbol],

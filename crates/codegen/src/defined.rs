@@ -2,14 +2,16 @@
 //!
 //! If R·s is differentiated entry by entry along a rotation, nine products are differentiated. The
 //! derivative as a whole is R·(ω × s). The product u·w of directions of two bodies changes by (ω ×
-//! u)·w; for this product, w is transformed to the frame of u once for all three rotations.
-//! Therefore each such value is a symbol while derivatives are computed, with rules for its
-//! derivative. It is replaced by its definition before code is printed ([`Defined::expand`]).
+//! u)·w. For this product, w is transformed to the frame of u once for all three rotations.
+//! Therefore each such value is a symbol while derivatives are computed. The symbol has rules for
+//! its derivative. Before code is printed, the symbol is replaced by its definition
+//! ([`Defined::expand`]).
 //!
 //! In the plane there are no such values, because a rotation is given by only two values, cosine
 //! and sine.
 //!
-//! With these rules ∂(C·a − Γ)/∂x of a hinge in space has 360 products; entry by entry it has 939.
+//! With these rules ∂(C·a − Γ)/∂x of a hinge in space has 360 products. Without the rules, entry by
+//! entry, it has 939 products.
 
 use std::cell::RefCell;
 use std::collections::{BTreeSet, HashMap};
@@ -22,7 +24,8 @@ use crate::vector::{Components, Frame, Vector, cross, dot};
 /// The definition of a symbol.
 #[derive(Clone)]
 enum Definition {
-    /// Component `k` of R·c or Rᵀ·c of the body in a slot; `all` are the three symbols.
+    /// Component `k` of R·c or Rᵀ·c of the body in a slot. The field `all` contains the three
+    /// symbols.
     Rotated {
         slot: usize,
         to_ground: bool,
@@ -30,7 +33,8 @@ enum Definition {
         all: Components,
         k: usize,
     },
-    /// A vector with components c in one frame times another vector, evaluated in that frame.
+    /// The product of a vector with components c in one frame and another vector, evaluated in that
+    /// frame.
     Dot {
         frame: Frame,
         c: Components,
@@ -43,10 +47,10 @@ enum Definition {
 /// All symbols with a definition, and their definitions.
 #[derive(Default)]
 pub(crate) struct Definitions {
-    /// R of the body in each slot, by rows.
+    /// R of the body in each slot, stored by rows.
     rot: Vec<[[Expr; 3]; 3]>,
     of: HashMap<Expr, Definition>,
-    /// Number of symbols so far.
+    /// The number of symbols that exist so far.
     symbols: usize,
     rotated: HashMap<(usize, bool, Components), Components>,
     dots: HashMap<(Frame, Components, Components), Vec<(Vector, Expr)>>,
@@ -66,7 +70,7 @@ impl Defined {
         Self(Rc::new(RefCell::new(definitions)))
     }
 
-    /// `R·c` or `Rᵀ·c` of the body in a slot.
+    /// Returns `R·c` or `Rᵀ·c` of the body in a slot.
     pub(crate) fn rotated(
         &self,
         g: &mut Graph,
@@ -99,7 +103,7 @@ impl Defined {
         all
     }
 
-    /// `a · b`
+    /// Returns `a · b`.
     pub(crate) fn dot(&self, g: &mut Graph, a: &Vector, b: &Vector) -> Expr {
         if a == b && a.parts().count() > 1 {
             let symbol = self.symbol(g);
@@ -115,7 +119,8 @@ impl Defined {
         self.by_parts(g, few, many)
     }
 
-    /// Each part of `a` times `b`, in the frame of the part.
+    /// Returns `a · b`: the sum of the products of each part of `a` with `b`, each in the frame of
+    /// the part of `a`.
     fn by_parts(&self, g: &mut Graph, a: &Vector, b: &Vector) -> Expr {
         let terms: Vec<(f64, Expr)> = a
             .parts()
@@ -158,7 +163,7 @@ impl Defined {
         symbol
     }
 
-    /// A symbol with a name that cannot occur in the source text.
+    /// Creates a symbol with a name that cannot occur in the source text.
     fn symbol(&self, g: &mut Graph) -> Expr {
         let mut definitions = self.0.borrow_mut();
         definitions.symbols += 1;
@@ -169,7 +174,7 @@ impl Defined {
         self.0.borrow().of.get(&e).cloned()
     }
 
-    /// The symbols with a definition in an expression.
+    /// Returns the symbols in an expression that have a definition.
     fn defined_in(&self, g: &Graph, e: Expr) -> Vec<Expr> {
         let definitions = self.0.borrow();
         if definitions.of.is_empty() {
@@ -179,7 +184,8 @@ impl Defined {
         symbols.filter(|e| definitions.of.contains_key(e)).collect()
     }
 
-    /// Inputs on which an expression depends, including those in the definitions of its symbols.
+    /// Returns the inputs on which an expression depends, including the inputs in the definitions
+    /// of its symbols.
     pub(crate) fn inputs(&self, g: &Graph, e: Expr) -> Vec<Symbol> {
         let mut found = BTreeSet::new();
         let mut seen = BTreeSet::new();
@@ -200,7 +206,7 @@ impl Defined {
         found.into_iter().collect()
     }
 
-    /// All expressions in a definition.
+    /// Returns all expressions in a definition.
     fn parts_of(&self, definition: Definition) -> Vec<Expr> {
         let definitions = self.0.borrow();
         let rotation = |slot: usize| definitions.rot[slot].into_iter().flatten();
@@ -221,7 +227,7 @@ impl Defined {
         }
     }
 
-    /// `e` with every symbol replaced by its definition.
+    /// Returns `e` with every symbol replaced by its definition.
     pub(crate) fn expand(&self, g: &mut Graph, e: Expr) -> Expr {
         let symbols = self.defined_in(g, e);
         if symbols.is_empty() {
@@ -234,7 +240,7 @@ impl Defined {
         g.substitute(e, &pairs)
     }
 
-    /// The definition of a symbol, in which other symbols are replaced by their definitions.
+    /// Returns the definition of a symbol. Other symbols in it are replaced by their definitions.
     fn value(&self, g: &mut Graph, symbol: Expr) -> Expr {
         if let Some(&known) = self.0.borrow().expanded.get(&symbol) {
             return known;
@@ -270,7 +276,7 @@ impl Defined {
         value
     }
 
-    /// Components of a vector in a frame.
+    /// Returns the components of a vector in a frame.
     fn in_frame(&self, g: &mut Graph, frame: Frame, v: &Vector) -> Components {
         let zero = g.number(0.0);
         let mut own = vec![zero; 3];
@@ -299,19 +305,19 @@ impl Defined {
 #[derive(Clone)]
 pub(crate) struct Along {
     plain: Derivation,
-    /// Angular velocity of the body in each slot for this derivation, in the frame of the body;
-    /// empty in the plane.
+    /// The angular velocity of the body in each slot for this derivation, in the frame of the body.
+    /// The list is empty in the plane.
     spins: Vec<Components>,
     defined: Defined,
-    /// Whether products of two bodies are evaluated in the frame of the first body. Otherwise they
-    /// are evaluated in the frame of the vector that changes, which can be used for all rotations
-    /// of its body.
+    /// Whether products of two bodies are evaluated in the frame of the first body. If not, they
+    /// are evaluated in the frame of the vector that changes. The result can then be used for all
+    /// rotations of the body of this vector.
     ordered: bool,
     images: RefCell<HashMap<Expr, Expr>>,
 }
 
 impl Along {
-    /// The derivation with these images of inputs and angular velocities of slots.
+    /// Creates the derivation with these images of inputs and these angular velocities of slots.
     pub(crate) fn new(
         g: &Graph,
         defined: &Defined,
@@ -327,8 +333,8 @@ impl Along {
         }
     }
 
-    /// The same derivation for derivatives with respect to time, in which equal products of two
-    /// bodies are computed only once.
+    /// Returns the same derivation for derivatives with respect to time. In such derivatives, equal
+    /// products of two bodies are computed only once.
     pub(crate) fn in_time(self) -> Self {
         Self {
             ordered: true,
@@ -336,7 +342,7 @@ impl Along {
         }
     }
 
-    /// `D(e)`
+    /// Returns `D(e)`, the derivative of `e`.
     pub(crate) fn apply(&self, g: &mut Graph, e: Expr) -> Expr {
         let symbols = self.defined.defined_in(g, e);
         if symbols.is_empty() {
@@ -411,7 +417,7 @@ impl Along {
         }
     }
 
-    /// The change of a vector, part by part.
+    /// Returns the derivative of a vector, part by part.
     fn change(&self, g: &mut Graph, v: &Vector) -> Vector {
         let parts = v.parts().map(|(frame, c)| {
             let rates: Components = c.iter().map(|&e| self.apply(g, e)).collect();
@@ -420,7 +426,7 @@ impl Along {
         Vector::of_parts(parts.collect())
     }
 
-    /// `ċ + ω × c` in the frame of a body, `ċ` in the frame of the ground.
+    /// Returns `ċ + ω × c` in the frame of a body, and `ċ` in the frame of the ground.
     fn carried(&self, g: &mut Graph, frame: Frame, c: &[Expr], rates: Components) -> Components {
         match frame {
             Frame::Body(slot) if slot < self.spins.len() => {

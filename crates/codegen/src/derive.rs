@@ -1,7 +1,8 @@
 //! The kernels that are derived from a definition; no kernel is written by hand for any joint.
 //!
-//! Holonomic and nonholonomic rows both lead to a velocity row `e = Φ̇` or `e = Ψ·q̇ + ψ`, which is
-//! `e = C·v − b`: `C = ∂e/∂v`, `b = −e(v = 0)`, and `Γ = −ė` without the acceleration terms.
+//! Holonomic and nonholonomic rows both lead to a velocity row `e = Φ̇` or `e = Ψ·q̇ + ψ`. The row
+//! has the form `e = C·v − b`, where `C = ∂e/∂v` and `b = −e(v = 0)`. `Γ` is `−ė` without the
+//! acceleration terms.
 
 use std::ops::Range;
 
@@ -28,11 +29,11 @@ pub(crate) struct Entry {
 
 /// Kernels of a constraint.
 pub(crate) struct ConstraintKernels {
-    /// One value for each holonomic row.
+    /// The values of Φ, one for each holonomic row.
     pub(crate) phi: Vec<Expr>,
     pub(crate) restricts_start: Vec<bool>,
     pub(crate) c: Vec<Entry>,
-    /// Empty for scleronomic constraints.
+    /// The entries of b; the list is empty for scleronomic constraints.
     pub(crate) b: Vec<Expr>,
     pub(crate) gamma: Vec<Expr>,
     pub(crate) wrench: Sparse,
@@ -45,16 +46,16 @@ pub(crate) struct ConstraintKernels {
 }
 
 impl ConstraintKernels {
-    /// The expressions of the rows, which contain all kernels that can be evaluated in any numeric
-    /// type.
+    /// Returns the expressions of the rows. The expressions contain all kernels that can be
+    /// evaluated in any numeric type.
     pub(crate) fn rows(&self) -> impl Iterator<Item = &Expr> {
         let c = self.c.iter().map(|e| &e.value);
         let others = [&self.phi, &self.b, &self.gamma, &self.component];
         c.chain(others.into_iter().flatten())
     }
 
-    /// The unit of the joint coordinate that a driven row prescribes: it is an angle if the row
-    /// does not depend on the velocities of origins.
+    /// Returns the unit of the joint coordinate that a driven row prescribes. The joint coordinate
+    /// is an angle if the row does not depend on the velocities of origins.
     pub(crate) fn unit_of_measure(&self, space: Space) -> Ident {
         let rotates = |e: &Entry| space.is_rotation(e.column % space.n_dof());
         if self.c.iter().all(rotates) {
@@ -72,18 +73,18 @@ pub(crate) struct ForceKernels {
     pub(crate) dq_dv: Sparse,
 }
 
-/// Computation of a reaction component.
+/// The way in which a reaction component is computed.
 pub(crate) enum Component {
     None,
-    /// The component of the force along the body's vector.
+    /// The component is the part of the force along the vector of the body.
     Along,
-    /// The force along the joint coordinate that a drive prescribes. The coefficient of each
-    /// multiplier is the negative of this derivative of Φ.
+    /// The component is the force along the joint coordinate that a drive prescribes. The
+    /// coefficient of each multiplier is the negative of this derivative of Φ.
     Motion(Along),
 }
 
-/// Derives the kernels of a constraint, or reports a row that restricts no motion. Rows of Ψ are
-/// linear in velocities, because the elaboration rejects other rows.
+/// Derives the kernels of a constraint. Returns an error if a row restricts no motion. Rows of Ψ
+/// are linear in velocities, because the elaboration rejects other rows.
 pub(crate) fn constraint(
     model: &mut Model,
     body: &ConstraintBody,
@@ -240,7 +241,7 @@ pub(crate) fn force(model: &mut Model, terms: &[(Expr, Expr)]) -> ForceKernels {
     ForceKernels { q, dq_dx, dq_dv }
 }
 
-/// The derivation along each degree of freedom of each slot.
+/// Returns the derivation along each degree of freedom of each slot.
 fn columns(model: &mut Model) -> Vec<Along> {
     let n_dof = model.inputs.space.n_dof();
     (0..model.inputs.slots.len() * n_dof)
@@ -294,10 +295,10 @@ fn b_rows(model: &mut Model, velocity: &[Expr]) -> Vec<Expr> {
     }
 }
 
-/// Force and moment on the first body about the reference point, for each multiplier. The force is
-/// `−C_vᵀ`. The moment is `−C_ωᵀ` at the centre of mass, transferred to the reference point with
-/// the arm from the body's origin. In space `−C_ωᵀ` has components in the frame of the body, and
-/// the moment has ground components.
+/// Returns the force and the moment on the first body about the reference point, for each
+/// multiplier. The force is `−C_vᵀ`. The moment about the centre of mass is `−C_ωᵀ`. The moment is
+/// transferred to the reference point with the arm from the origin of the body. In space `−C_ωᵀ`
+/// has components in the frame of the body, and the moment has ground components.
 fn wrench(model: &mut Model, c: &[Entry], place: &Components, rows: usize) -> Sparse {
     let (space, dim) = (model.inputs.space, model.inputs.space.dim());
     let lever: Components = (0..dim)
@@ -327,7 +328,7 @@ fn wrench(model: &mut Model, c: &[Entry], place: &Components, rows: usize) -> Sp
     map
 }
 
-/// Coefficients of the component of the force on the first body along a vector.
+/// Returns the coefficients of the component of the force on the first body along a vector.
 fn force_along(model: &mut Model, c: &[Entry], along: &Components, rows: usize) -> Vec<Expr> {
     (0..rows)
         .map(|row| {
@@ -345,8 +346,8 @@ fn entry(model: &mut Model, c: &[Entry], row: usize, column: usize) -> Expr {
     }
 }
 
-/// Whether a row contains a value stored at the start. Such a row is satisfied at any initial
-/// configuration and does not restrict it.
+/// Returns whether a row contains a value stored at the start. Such a row is satisfied at any
+/// initial configuration and does not restrict the initial configuration.
 fn keeps_start(model: &Model, row: Expr) -> bool {
     model.depends_on(row, |s| match s {
         Source::Kept { field, .. } => {
@@ -356,7 +357,7 @@ fn keeps_start(model: &Model, row: Expr) -> bool {
     })
 }
 
-/// `∂(Cᵀλ)/∂x`
+/// Returns `∂(Cᵀλ)/∂x`.
 fn force_derivatives(model: &mut Model, c: &[Entry], columns: &[Along]) -> Sparse {
     let forces: Vec<Expr> = (0..columns.len())
         .map(|column| {
@@ -371,7 +372,7 @@ fn force_derivatives(model: &mut Model, c: &[Entry], columns: &[Along]) -> Spars
     along_columns(model, &forces, columns)
 }
 
-/// `C·a − Γ`, row by row.
+/// Returns `C·a − Γ`, row by row.
 fn residuals(model: &mut Model, c: &[Entry], gamma: &[Expr]) -> Vec<Expr> {
     let n_dof = model.inputs.space.n_dof();
     gamma
@@ -392,8 +393,8 @@ fn residuals(model: &mut Model, c: &[Entry], gamma: &[Expr]) -> Vec<Expr> {
         .collect()
 }
 
-/// `Σ λ·row` of these rows. In space, rows that are the components of a vector are multiplied as
-/// vectors.
+/// Returns `Σ λ·row` of these rows. In space, rows that are the components of a vector are
+/// multiplied as vectors.
 fn weighted(
     model: &mut Model,
     rows: &[Expr],
@@ -422,7 +423,7 @@ fn weighted(
     model.g.sum(&terms)
 }
 
-/// Partial derivatives of a scalar with respect to the velocities.
+/// Returns the partial derivatives of a scalar with respect to the velocities.
 fn along_velocities(model: &mut Model, e: Expr) -> Vec<Expr> {
     let slots = model.inputs.slots.iter();
     let twists: Vec<Expr> = slots.flat_map(|s| s.twist.iter().copied()).collect();
@@ -432,7 +433,7 @@ fn along_velocities(model: &mut Model, e: Expr) -> Vec<Expr> {
         .collect()
 }
 
-/// Derivatives of `rows` along each degree of freedom.
+/// Returns the derivatives of `rows` along each degree of freedom.
 fn along_columns(model: &mut Model, rows: &[Expr], columns: &[Along]) -> Sparse {
     let mut out = Vec::new();
     for (row, &e) in rows.iter().enumerate() {
@@ -443,7 +444,7 @@ fn along_columns(model: &mut Model, rows: &[Expr], columns: &[Along]) -> Sparse 
     out
 }
 
-/// Partial derivatives of `rows` with respect to the velocities.
+/// Returns the partial derivatives of `rows` with respect to the velocities.
 fn velocity_derivatives(model: &mut Model, rows: &[Expr]) -> Sparse {
     let n_dof = model.inputs.space.n_dof();
     let mut out = Vec::new();

@@ -28,7 +28,7 @@ use names::Names;
 use scope::Scope;
 use value::Value;
 
-/// Names of fields, local variables and patterns in the generated code; parameters cannot have
+/// Names of fields, local variables and patterns in the generated code. Parameters cannot have
 /// these names.
 const RESERVED: [&str; 7] = [
     "motion",
@@ -40,7 +40,7 @@ const RESERVED: [&str; 7] = [
     "None",
 ];
 
-/// Names of types and traits in the generated module; definitions cannot have these names.
+/// Names of types and traits in the generated module. Definitions cannot have these names.
 const RESERVED_TYPES: [&str; 40] = [
     "Argument",
     "ArgumentError",
@@ -87,7 +87,7 @@ const RESERVED_TYPES: [&str; 40] = [
 /// Elaborates a definition.
 ///
 /// # Errors
-/// Returns an error at the wrong token.
+/// Returns an error that marks the wrong token.
 pub(crate) fn elaborate(d: &Definition) -> syn::Result<Model> {
     if RESERVED_TYPES.iter().any(|r| d.name == r) {
         return Err(syn::Error::new_spanned(
@@ -259,8 +259,8 @@ impl<'a> Scope<'a> {
         values: Vec<Expr>,
         overridden_by: Option<Ident>,
     ) -> syn::Result<Value> {
-        // The optional parameter has its own name; the value that is used is stored in another
-        // field. The same applies to an angle: its name is used for the angle since the start.
+        // The optional parameter has its own name. The value that is used is stored in another
+        // field. The same applies to an angle: its name denotes the angle since the start.
         let field = match (&overridden_by, &kind) {
             (None, Kept::Number(_) | Kept::Vector(_)) => name.to_string(),
             (Some(_), _) | (None, Kept::Turn) => format!("{name}_0"),
@@ -297,7 +297,8 @@ impl<'a> Scope<'a> {
     }
 }
 
-/// `arm_i` for the only point in slot i, `arm_s` for a point `s` if the slot has several.
+/// Returns `arm_i` for the only point in slot i. If the slot has several points, it returns `arm_s`
+/// for a point `s`.
 fn arm_name(definition: &Definition, p: &Param, slot: usize) -> String {
     let here = |q: &&Param| match &q.kind {
         ParamKind::Point(s) => *s == definition.slots[slot],
@@ -320,7 +321,8 @@ fn only_in(d: &Definition, space: Space, at: &Ident, what: &str) -> syn::Result<
     ))
 }
 
-/// Checks that the parameter after `like` consists of axes and is declared before.
+/// Checks that the parameter after `like` consists of axes and is declared before the parameter
+/// `own`.
 fn check_like(d: &Definition, like: &Ident, own: &Param) -> syn::Result<()> {
     let mut before = d.params.iter().take_while(|p| p.name != own.name);
     let is_axes = |p: &Param| matches!(p.kind, ParamKind::Axes { .. });

@@ -1,4 +1,4 @@
-//! Prints the text of a generated module: type, specification, kernels.
+//! Prints the text of a generated module: the type, its specification and its kernels.
 
 mod constructors;
 mod data;
@@ -19,7 +19,8 @@ use crate::space::Space;
 use data::Stored;
 use parts::{Driven, Type};
 
-/// The module of a constraint: its type and one type for the drive of each joint coordinate.
+/// Returns the module of a constraint: its type, and one type for the drive of each joint
+/// coordinate.
 pub(crate) fn constraint(
     d: &Definition,
     mut model: Model,
@@ -199,12 +200,13 @@ pub(crate) fn constraint(
 }
 
 /// Maximum number of operations of the closed-form derivatives of a definition and its drives. For
-/// longer ones, dual numbers are used, which need no compilation and take little more time. Mesh,
-/// screw and universal have 10 to 20 thousand operations and were a sixth of all generated lines;
-/// cylindrical, the next one, has 6500.
+/// longer derivatives, dual numbers are used, which need no compilation and take little more time.
+/// The derivatives of mesh, screw and universal have 10 to 20 thousand operations and were a sixth
+/// of all generated lines. The derivatives of cylindrical are the next longest and have 6500
+/// operations.
 const MOST_OPERATIONS: usize = 8000;
 
-/// The derivatives of rows with respect to poses and velocities.
+/// Returns the derivatives of rows with respect to poses and velocities.
 fn derivatives(k: &ConstraintKernels) -> [(&'static str, &'static str, Signature, &Sparse); 4] {
     use Signature::{Force, Rate, Residual};
     [
@@ -363,7 +365,7 @@ fn constraint_type(
     }
 }
 
-/// The joint coordinate in printed form.
+/// Returns the joint coordinate in printed form.
 fn expanded(model: &mut Model, measure: Measure) -> Measure {
     match measure {
         Measure::Of(e) => Measure::Of(model.expand(e)),
@@ -375,8 +377,8 @@ fn expanded(model: &mut Model, measure: Measure) -> Measure {
     }
 }
 
-/// The row of the drive of an angle θ in space, `sin(θ − θ₀ − f)`, from the cosine and sine of the
-/// angle.
+/// Returns the row of the drive of an angle θ in space, `sin(θ − θ₀ − f)`. The row is computed from
+/// the cosine and sine of the angle.
 fn turned(model: &mut Model, [cos, sin]: [Expr; 2]) -> Expr {
     let [cos_f, sin_f] = model.inputs.motion_turn.map(|jet| jet[0]);
     let since = model.angle_since([cos, sin], model.inputs.turn_0);
@@ -385,8 +387,8 @@ fn turned(model: &mut Model, [cos, sin]: [Expr; 2]) -> Expr {
     g.sub(a, b)
 }
 
-/// The traits that the generated types of a space implement; the traits for the plane are the
-/// defaults.
+/// The traits that the generated types of a space implement. The defaults are the traits for the
+/// plane.
 struct Traits {
     constraint: TokenStream,
     definition: TokenStream,
@@ -425,7 +427,7 @@ impl Traits {
     }
 }
 
-/// The module of a force.
+/// Returns the module of a force.
 pub(crate) fn force(
     d: &Definition,
     mut model: Model,
@@ -488,15 +490,15 @@ pub(crate) fn force(
 /// Arguments of a method in addition to `x`, `f` and `out`.
 #[derive(Clone, Copy)]
 enum Signature {
-    /// No other arguments.
+    /// The method has no other arguments.
     Position,
-    /// `v`
+    /// The method has the argument `v`.
     Velocity,
-    /// `lambda`, in `f64`
+    /// The method has the argument `lambda`, in `f64`.
     Force,
-    /// `v`, in `f64`
+    /// The method has the argument `v`, in `f64`.
     Rate,
-    /// `v` and `a`, in `f64`
+    /// The method has the arguments `v` and `a`, in `f64`.
     Residual,
 }
 
@@ -522,7 +524,7 @@ fn method(name: &str, what: &str, kernel: Kernel, s: Signature) -> TokenStream {
     }
 }
 
-/// Entries of C at their positions in the pattern.
+/// Returns the entries of C at their positions in the pattern.
 fn indexed(
     name: &str,
     what: &str,
@@ -550,8 +552,8 @@ fn indexed(
     }
 }
 
-/// The statement that gives the number of entries of `out` once, so that the compiler needs no
-/// bounds check for each entry; no statement for a single entry.
+/// Returns the statement that gives the number of entries of `out` once, so that the compiler needs
+/// no bounds check for each entry. For a single entry there is no statement.
 fn out_range(len: usize) -> Option<TokenStream> {
     let end = parts::index(len);
     (len > 1).then(|| quote!(let out = &mut out[..#end];))

@@ -1,6 +1,6 @@
-//! Decides whether an expression is zero for every pose. It evaluates the expression at fixed
-//! pseudo-random points that satisfy `cos² + sin² = 1` and have unit directions. The result is used
-//! only to omit structural zeros from patterns.
+//! Decides whether an expression is zero for every pose. The module evaluates the expression at
+//! fixed pseudo-random points that satisfy `cos² + sin² = 1` and have unit directions. The result
+//! is used only to omit structural zeros from patterns.
 
 use std::ops::{Add, Div, Mul, Neg};
 
@@ -11,11 +11,11 @@ use crate::elaborate::{Inputs, Source};
 /// Number of points; the probability that a nonzero polynomial vanishes at all of them is zero.
 const POINTS: u64 = 6;
 
-/// Rounding error relative to the terms that cancel: ε = 2.2e-16 for each of at most some thousand
-/// operations.
+/// Rounding error relative to the terms that cancel. The error is ε = 2.2e-16 for each operation,
+/// of which there are at most some thousand.
 const ROUNDING: f64 = 1e-12;
 
-/// A value with the size of its terms; this size is the value without cancellation.
+/// A value, and the size of its terms: the value that would result without cancellation.
 #[derive(Clone, Copy)]
 struct Measured {
     value: f64,
@@ -83,7 +83,7 @@ impl Number for Measured {
     }
 }
 
-/// Whether `e` vanishes at every configuration.
+/// Returns whether `e` vanishes at every configuration.
 pub(crate) fn is_zero(g: &mut Graph, inputs: &Inputs, e: Expr) -> bool {
     let e = inputs.defined.expand(g, e);
     g.is_zero(e)
@@ -94,7 +94,7 @@ pub(crate) fn is_zero(g: &mut Graph, inputs: &Inputs, e: Expr) -> bool {
         })
 }
 
-/// The value of an input at a point.
+/// Returns the value of an input at a point.
 fn value(inputs: &Inputs, name: &str, source: &Source, point: u64) -> f64 {
     let angle = |key: &str| 6.0 * sample(point, key);
     // The last index of an access like `self.axis.uvw()[1][2]`.
@@ -148,7 +148,7 @@ fn value(inputs: &Inputs, name: &str, source: &Source, point: u64) -> f64 {
     }
 }
 
-/// A rotation that depends only on the arguments, by rows.
+/// Returns a rotation that depends only on the arguments, by rows.
 fn rotation(point: u64, key: &str) -> [[f64; 3]; 3] {
     let e = ["w", "x", "y", "z"].map(|part| 0.1 + sample(point, &format!("{key}.{part}")));
     let square: f64 = e.iter().map(|e| e * e).sum();
@@ -172,7 +172,7 @@ fn rotation(point: u64, key: &str) -> [[f64; 3]; 3] {
     ]
 }
 
-/// A value in [0, 1) that depends only on the arguments (FNV-1a).
+/// Returns a value in [0, 1) that depends only on the arguments (FNV-1a).
 fn sample(point: u64, key: &str) -> f64 {
     let mut hash = 0xcbf2_9ce4_8422_2325_u64 ^ point.wrapping_mul(0x9e37_79b9_7f4a_7c15);
     for byte in key.bytes() {

@@ -8,12 +8,12 @@ use crate::Kind;
 
 /// The parts of a macro call.
 pub struct Invocation {
-    /// Path of the crate `joints` in the expanded code; `::joints` if none is given.
+    /// Path of the crate `joints` in the expanded code; it is `::joints` if the call gives no path.
     pub runtime: TokenStream,
     /// The definition.
     pub body: TokenStream,
-    /// The call as written by its author: the source text if the compiler provides it, printed
-    /// tokens otherwise.
+    /// The call as written by its author. If the compiler provides the source text, it is the
+    /// source text; otherwise it consists of printed tokens.
     pub text: String,
 }
 
@@ -49,8 +49,8 @@ impl Invocation {
     }
 }
 
-/// The path in `#![runtime = path]`. It is not checked, so that `$crate` of a wrapping macro can be
-/// passed.
+/// Returns the path in `#![runtime = path]`. The path is not checked, so that the `$crate` of a
+/// wrapping macro can be passed.
 fn runtime(attribute: &[TokenTree]) -> syn::Result<TokenStream> {
     if let [_, TokenTree::Punct(not), TokenTree::Group(group)] = attribute
         && not.as_char() == '!'
@@ -74,8 +74,8 @@ fn runtime(attribute: &[TokenTree]) -> syn::Result<TokenStream> {
     ))
 }
 
-/// The text of `plane Name(i, j) { … }`, which consists of four tokens, each with its own source
-/// text.
+/// Returns the text of `plane Name(i, j) { … }`. The text consists of four tokens, each with its
+/// own source text.
 fn text(kind: Kind, body: &TokenStream) -> String {
     let name = match kind {
         Kind::Constraint => "joint",

@@ -1,5 +1,5 @@
-//! One function for one list of expressions: the inputs that are used, shared parts, outputs, and
-//! the number of operations.
+//! One function for one list of expressions. The function contains the inputs that are used, shared
+//! parts, outputs, and the number of operations.
 
 use proc_macro2::{Ident, Literal, Span, TokenStream};
 use quote::quote;
@@ -21,8 +21,8 @@ pub(crate) fn kernel(model: &Model, outputs: &[Expr], scalar: Scalar) -> Kernel 
     print(model, outputs, scalar, &[])
 }
 
-/// Prints rows with the indices of the stored values that they read; `stored` contains the symbols
-/// of these values.
+/// Prints rows with the indices of the stored values that the rows read. The list `stored` contains
+/// the symbols of these values.
 pub(crate) fn rows(model: &Model, outputs: &[Expr], stored: &[Symbol]) -> Kernel {
     print(model, outputs, Scalar::Generic, stored)
 }
@@ -53,7 +53,7 @@ fn print(model: &Model, outputs: &[Expr], scalar: Scalar, stored: &[Symbol]) -> 
 }
 
 impl Kernel {
-    /// The kernel as statements that assign `out[k]`.
+    /// Returns the kernel as statements that assign `out[k]`.
     pub(crate) fn into_out(self) -> TokenStream {
         let Self {
             statements,

@@ -55,12 +55,12 @@ pub struct Expansion {
 }
 
 /// Expands the body of one `joint!` or `force!`. Returns an expansion for each form of the
-/// definition; the first has the name of the definition. `runtime` is the path of the crate
-/// `joints` in the expanded code, `text` the definition as written by its author.
+/// definition; the first expansion has the name of the definition. `runtime` is the path of the
+/// crate `joints` in the expanded code. `text` is the definition as written by its author.
 ///
 /// # Errors
-/// Returns an error at the wrong token: an unknown name, a wrong shape, a Ψ that is not linear in
-/// velocities, a parameter that is never used, …
+/// Returns an error that marks the wrong token. Reasons are an unknown name, a wrong shape, a Ψ
+/// that is not linear in velocities, a parameter that is never used, …
 pub fn expand(
     kind: Kind,
     body: TokenStream,
@@ -87,8 +87,8 @@ pub fn expand(
 /// Expands a file that contains one `joint! { … }` or `force! { … }`.
 ///
 /// # Errors
-/// Returns an error if the file is not valid Rust, contains something else, or its definition is
-/// wrong.
+/// Returns an error if the file is not valid Rust, if it contains something else, or if its
+/// definition is wrong.
 pub fn expand_file(source: &str, runtime: &TokenStream) -> syn::Result<Vec<Expansion>> {
     let file = syn::parse_file(source)?;
     let [syn::Item::Macro(item)] = file.items.as_slice() else {
@@ -111,7 +111,7 @@ pub fn expand_file(source: &str, runtime: &TokenStream) -> syn::Result<Vec<Expan
     expand(kind, item.mac.tokens.clone(), runtime, source.trim_end())
 }
 
-/// The modules around the items of expansions in a user's crate.
+/// Returns the modules around the items of expansions in a user's crate.
 #[must_use]
 pub fn in_modules(expansions: &[Expansion]) -> TokenStream {
     expansions.iter().map(in_module).collect()
@@ -120,7 +120,7 @@ pub fn in_modules(expansions: &[Expansion]) -> TokenStream {
 fn in_module(expansion: &Expansion) -> TokenStream {
     let module = quote::format_ident!("__{}", snake_case(&expansion.name));
     let items = &expansion.items;
-    // All tokens have the position of the call, which has several lines. Because of this, Clippy
+    // All tokens have the position of the call, which has several lines. For this reason, Clippy
     // would report a difference in a list as two entries without a comma.
     quote! {
         #[doc(hidden)]

@@ -1,18 +1,18 @@
 //! Conversion of type names into names of modules and scene types, and of words into type names.
 
-/// `PinInSlot` → `pin_in_slot`
+/// Converts a name as in `PinInSlot` → `pin_in_slot`.
 #[must_use]
 pub fn snake_case(name: &str) -> String {
     separated(name, '_')
 }
 
-/// `PinInSlot` → `pin-in-slot`
+/// Converts a name as in `PinInSlot` → `pin-in-slot`.
 #[must_use]
 pub fn kebab_case(name: &str) -> String {
     separated(name, '-')
 }
 
-/// `in-slot`, `in_slot` → `InSlot`
+/// Converts words as in `in-slot`, `in_slot` → `InSlot`.
 pub(crate) fn camel_case(name: &str) -> String {
     let mut out = String::new();
     for word in name.split(['_', '-']) {

@@ -3,7 +3,7 @@
 /// Largest number of edits between a name and a hint.
 const EDITS: usize = 2;
 
-/// `; did you mean …?`, or the list of the known names.
+/// Returns the text `; did you mean …?`, or the list of the known names.
 pub(crate) fn hint(text: &str, known: &[&str]) -> String {
     let nearest = known
         .iter()
@@ -18,13 +18,13 @@ pub(crate) fn hint(text: &str, known: &[&str]) -> String {
     }
 }
 
-/// `a`, `b`, `c`
+/// Returns the list of words in the form `a`, `b`, `c`.
 pub(crate) fn list(words: &[&str]) -> String {
     let quoted: Vec<String> = words.iter().map(|w| format!("`{w}`")).collect();
     quoted.join(", ")
 }
 
-/// The Levenshtein distance.
+/// Returns the Levenshtein distance.
 fn distance(a: &str, b: &str) -> usize {
     let b: Vec<char> = b.chars().collect();
     let mut row: Vec<usize> = (0..=b.len()).collect();

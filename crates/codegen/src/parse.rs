@@ -1,5 +1,5 @@
-//! The syntax of the definition language, as a tree. The module `elaborate` determines its meaning
-//! later.
+//! The syntax of the definition language, as a tree. The module `elaborate` determines the meaning
+//! of this tree later.
 //!
 //! ```text
 //! plane Name(slot, …) {               or   space Name(slot, …) {
@@ -45,7 +45,7 @@ use syn::parse::{ParseStream, Parser};
 pub use kind::UNITS;
 pub use tree::{Binding, Definition, Kept, Kind, Param, ParamKind, Variant};
 
-/// Parses the body of a `joint!` or `force!`. Returns a definition for each form.
+/// Parses the body of a `joint!` or `force!`. Returns a definition for each form of the body.
 ///
 /// # Errors
 /// Returns an error at the first token that does not fit the syntax.

@@ -1,4 +1,4 @@
-//! The space of a definition: sizes, and the names of the body fields that kernels read.
+//! The space of a definition: its sizes, and the names of the body fields that kernels read.
 
 /// The space in which the bodies of a definition move.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -10,7 +10,7 @@ pub enum Space {
 }
 
 impl Space {
-    /// Number of components of a vector.
+    /// Returns the number of components of a vector.
     #[must_use]
     pub fn dim(self) -> usize {
         match self {
@@ -19,7 +19,7 @@ impl Space {
         }
     }
 
-    /// Number of velocities of a body.
+    /// Returns the number of velocities of a body.
     #[must_use]
     pub fn n_dof(self) -> usize {
         match self {
@@ -28,12 +28,12 @@ impl Space {
         }
     }
 
-    /// Whether a degree of freedom of a body is a rotation.
+    /// Returns whether a degree of freedom of a body is a rotation.
     pub(crate) fn is_rotation(self, dof: usize) -> bool {
         dof >= self.dim()
     }
 
-    /// The word for the space in a definition.
+    /// Returns the word for the space in a definition.
     pub(crate) fn word(self) -> &'static str {
         match self {
             Self::Plane => "plane",
@@ -41,7 +41,8 @@ impl Space {
         }
     }
 
-    /// Fields of a pose, each with the name of its input; `{}` is the slot.
+    /// Returns the fields of a pose, each with the name of its input. In the names, `{}` is the
+    /// slot.
     pub(crate) fn pose(self) -> &'static [(&'static str, &'static str)] {
         match self {
             Self::Plane => &[
@@ -68,7 +69,8 @@ impl Space {
         }
     }
 
-    /// Fields of a twist, each with the names of the inputs for velocity and acceleration.
+    /// Returns the fields of a twist, each with the names of the inputs for velocity and
+    /// acceleration.
     pub(crate) fn twist(self) -> &'static [(&'static str, [&'static str; 2])] {
         match self {
             Self::Plane => &[

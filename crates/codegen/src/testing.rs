@@ -33,18 +33,18 @@ pub(crate) const VELOCITY: &str = "plane Velocity(i) {
     place: point(i, s);
 }";
 
-/// A definition with one form.
+/// Returns a definition with one form.
 fn definition(kind: Kind, tokens: TokenStream) -> syn::Result<Definition> {
     let mut forms = parse::definition(kind, tokens)?;
     Ok(forms.remove(0))
 }
 
-/// The definition in mathematical form.
+/// Returns the definition in mathematical form.
 pub(crate) fn model(kind: Kind, text: &str) -> syn::Result<Model> {
     elaborate(&definition(kind, text.parse()?)?)
 }
 
-/// The error message for a wrong definition.
+/// Returns the error message for a wrong definition.
 pub(crate) fn error(kind: Kind, text: &str) -> String {
     match model(kind, text) {
         Ok(_) => "(no error)".to_owned(),
@@ -52,7 +52,7 @@ pub(crate) fn error(kind: Kind, text: &str) -> String {
     }
 }
 
-/// A correct constraint and its kernels.
+/// Returns a correct constraint and its kernels.
 pub(crate) fn constraint(text: &str) -> (Model, ConstraintBody, ConstraintKernels) {
     let tokens = text.parse().unwrap_or_else(|e| panic!("{e}"));
     let definition = definition(Kind::Constraint, tokens).unwrap_or_else(|e| panic!("{e}"));
@@ -69,7 +69,7 @@ pub(crate) fn constraint(text: &str) -> (Model, ConstraintBody, ConstraintKernel
     (model, body, kernels)
 }
 
-/// A correct force and its kernels.
+/// Returns a correct force and its kernels.
 pub(crate) fn force(text: &str) -> (Model, ForceKernels) {
     let mut model = model(Kind::Force, text).unwrap_or_else(|e| panic!("{e}"));
     let Body::Force(terms) = std::mem::replace(&mut model.body, Body::Force(Vec::new())) else {
@@ -81,16 +81,16 @@ pub(crate) fn force(text: &str) -> (Model, ForceKernels) {
 
 /// Values for the inputs of kernels.
 pub(crate) struct State {
-    /// x, y, angle of each slot.
+    /// The coordinates x and y and the angle of each slot.
     pub(crate) pose: Vec<[f64; 3]>,
     pub(crate) twist: Vec<[f64; 3]>,
-    /// Values by the name of their field, without `self.`.
+    /// Values of parameters. Each value has the name of its field, without `self.`.
     pub(crate) parameters: Vec<(&'static str, f64)>,
     pub(crate) f: Vec<[f64; 3]>,
 }
 
 impl State {
-    /// The value of an expression, by direct evaluation of the graph.
+    /// Returns the value of an expression, by direct evaluation of the graph.
     pub(crate) fn value(&self, model: &Model, e: Expr) -> f64 {
         let dof = |field: &str| ["x", "y", "omega"].iter().position(|f| *f == field);
         model.g.evaluate(e, &|s| match model.inputs.source(s) {
@@ -124,10 +124,10 @@ impl State {
     }
 }
 
-/// A few dozen roundings of values of order one to ten.
+/// The rounding error of a few dozen operations with values of order one to ten.
 pub(crate) const ROUNDING: f64 = 1e-13;
 
-/// Equal up to rounding.
+/// Asserts that two lists are equal up to rounding.
 pub(crate) fn assert_close(found: &[f64], expected: &[f64]) {
     assert_eq!(found.len(), expected.len(), "{found:?} {expected:?}");
     for (a, b) in found.iter().zip(expected) {

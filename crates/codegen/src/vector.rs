@@ -1,6 +1,6 @@
-//! Vectors as sums of parts, each in its own frame: `r_i + R_i·s_i` stores `s_i` in the frame of
-//! body i. Products of parts in the same frame need no rotation (`(R·a)·(R·b) = a·b`), and a part
-//! fixed in its body has the derivative `ω × s` in the same frame.
+//! Vectors as sums of parts. Each part has its own frame: `r_i + R_i·s_i` stores `s_i` in the frame
+//! of body i. Products of parts in the same frame need no rotation (`(R·a)·(R·b) = a·b`). The
+//! derivative of a part that is fixed in its body is `ω × s` in the same frame.
 
 use std::collections::BTreeMap;
 
@@ -11,19 +11,19 @@ use crate::defined::{Along, Defined};
 /// Frame of a part.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub(crate) enum Frame {
-    /// The ground.
+    /// The frame of the ground.
     Ground,
-    /// The body in this slot.
+    /// The frame of the body in this slot.
     Body(usize),
 }
 
-/// Components in one frame: two in the plane, three in space.
+/// Components in one frame: two components in the plane, three in space.
 pub(crate) type Components = Vec<Expr>;
 
 /// Rotation and angular velocity of the body in each slot.
 #[derive(Clone)]
 pub(crate) enum Turn {
-    /// Cosine, sine and angular velocity.
+    /// The cosine and the sine of the angle, and the angular velocity.
     Plane { cos: Expr, sin: Expr, omega: Expr },
     /// The slot, and the angular velocity in the frame of the body.
     Space3 {
@@ -33,7 +33,7 @@ pub(crate) enum Turn {
     },
 }
 
-/// A vector.
+/// A vector as a sum of parts.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct Vector {
     parts: BTreeMap<Frame, Components>,
@@ -50,17 +50,17 @@ impl Vector {
         Self { parts }
     }
 
-    /// The parts with their frames.
+    /// Returns the parts with their frames.
     pub(crate) fn parts(&self) -> impl Iterator<Item = (Frame, &Components)> + '_ {
         self.parts.iter().map(|(&frame, c)| (frame, c))
     }
 
-    /// Components of all parts, each in its own frame.
+    /// Returns the components of all parts, each in its own frame.
     pub(crate) fn components(&self) -> impl Iterator<Item = Expr> + '_ {
         self.parts.values().flatten().copied()
     }
 
-    /// `a·self + b·other`
+    /// Returns `a·self + b·other`.
     pub(crate) fn combine(&self, g: &mut Graph, a: f64, other: &Self, b: f64) -> Self {
         let mut parts = BTreeMap::new();
         let zero = g.number(0.0);
@@ -74,17 +74,17 @@ impl Vector {
         Self { parts }
     }
 
-    /// `factor·self`
+    /// Returns `factor·self`.
     pub(crate) fn scale(&self, g: &mut Graph, factor: Expr) -> Self {
         self.map(|c| c.iter().map(|&e| g.mul(factor, e)).collect())
     }
 
-    /// The planar vector rotated by a right angle, counterclockwise.
+    /// Returns the planar vector rotated by a right angle, counterclockwise.
     pub(crate) fn perp(&self, g: &mut Graph) -> Self {
         self.map(|c| vec![g.neg(c[1]), c[0]])
     }
 
-    /// `self × other` in space. Parts in the same frame need no rotation.
+    /// Returns `self × other` in space. Parts in the same frame need no rotation.
     pub(crate) fn cross(&self, g: &mut Graph, other: &Self, turns: &[Turn]) -> Self {
         let (mine, theirs): (Vec<_>, Vec<_>) =
             (self.parts.iter().collect(), other.parts.iter().collect());
@@ -97,7 +97,7 @@ impl Vector {
         Self::new(Frame::Ground, cross(g, &a, &b))
     }
 
-    /// Time derivative; `time` differentiates components.
+    /// Returns the time derivative. The derivation `time` differentiates the components.
     pub(crate) fn rate(&self, g: &mut Graph, turns: &[Turn], time: &Along) -> Self {
         let parts = self
             .parts
@@ -114,7 +114,7 @@ impl Vector {
         Self { parts }
     }
 
-    /// `self · other`
+    /// Returns `self · other`.
     pub(crate) fn dot(&self, g: &mut Graph, other: &Self, turns: &[Turn]) -> Expr {
         if let Some(Turn::Space3 { defined, .. }) = turns.first() {
             return defined.dot(g, self, other);
@@ -144,7 +144,7 @@ impl Vector {
         g.add(across, same)
     }
 
-    /// The parts in other frames.
+    /// Returns the sum of the parts in other frames.
     fn without(&self, frame: Frame) -> Self {
         let others = self.parts.iter().filter(|(f, _)| **f != frame);
         Self {
@@ -152,7 +152,7 @@ impl Vector {
         }
     }
 
-    /// Global components.
+    /// Returns the global components.
     pub(crate) fn to_ground(&self, g: &mut Graph, turns: &[Turn]) -> Components {
         let rotated: Vec<_> = self
             .parts
@@ -172,7 +172,7 @@ impl Vector {
             .collect()
     }
 
-    /// Components in the frame of the body in `slot`.
+    /// Returns the components in the frame of the body in `slot`.
     pub(crate) fn in_body(&self, g: &mut Graph, slot: usize, turns: &[Turn]) -> Components {
         let zero = g.number(0.0);
         let frame = Frame::Body(slot);
@@ -184,7 +184,7 @@ impl Vector {
         sums.map(|(k, e)| g.add(e, own(k))).collect()
     }
 
-    /// Every part with its global components, for naming.
+    /// Returns every part with its global components, so that the components can be named.
     pub(crate) fn rotated_parts<'a>(
         &'a self,
         g: &'a mut Graph,
@@ -210,7 +210,7 @@ impl Turn {
         }
     }
 
-    /// `R·c`
+    /// Returns `R·c`.
     pub(crate) fn to_ground(&self, g: &mut Graph, c: &[Expr]) -> Components {
         match self {
             &Self::Plane { cos, sin, .. } => {
@@ -222,7 +222,7 @@ impl Turn {
         }
     }
 
-    /// `Rᵀ·c`
+    /// Returns `Rᵀ·c`.
     fn to_body(&self, g: &mut Graph, c: &[Expr]) -> Components {
         match self {
             &Self::Plane { cos, sin, .. } => {
@@ -234,7 +234,8 @@ impl Turn {
         }
     }
 
-    /// `d + ω × c`: the derivative of a vector with components c in the body and their rates d.
+    /// Returns `d + ω × c`, the derivative of a vector. The components of the vector in the body
+    /// are c, and the rates of these components are d.
     fn carried(&self, g: &mut Graph, c: &[Expr], d: Components) -> Components {
         match self {
             &Self::Plane { omega, .. } => {
@@ -250,7 +251,7 @@ impl Turn {
     }
 }
 
-/// `R·c`
+/// Returns `R·c`.
 fn rotate(g: &mut Graph, frame: Frame, c: &Components, turns: &[Turn]) -> Components {
     match frame {
         Frame::Ground => c.clone(),
@@ -258,13 +259,13 @@ fn rotate(g: &mut Graph, frame: Frame, c: &Components, turns: &[Turn]) -> Compon
     }
 }
 
-/// `a · b`
+/// Returns `a · b`.
 pub(crate) fn dot(g: &mut Graph, a: &[Expr], b: &[Expr]) -> Expr {
     let products: Vec<(f64, Expr)> = a.iter().zip(b).map(|(&a, &b)| (1.0, g.mul(a, b))).collect();
     g.sum(&products)
 }
 
-/// `a × b`
+/// Returns `a × b`.
 pub(crate) fn cross(g: &mut Graph, a: &[Expr], b: &[Expr]) -> Components {
     [[1, 2], [2, 0], [0, 1]]
         .into_iter()

@@ -1,9 +1,9 @@
-//! Derived kernels compared with formulas derived by hand.
+//! Compares derived kernels with manually derived formulas.
 
 use super::{Entry, Sparse};
 use crate::testing::{KNIFE_EDGE, REVOLUTE, State, VELOCITY, assert_close, constraint, force};
 
-/// `R(angle)·s`
+/// Returns `R(angle)·s`.
 fn turned(angle: f64, s: [f64; 2]) -> [f64; 2] {
     let (sin, cos) = angle.sin_cos();
     [cos * s[0] - sin * s[1], sin * s[0] + cos * s[1]]
@@ -86,13 +86,13 @@ fn edge_state() -> State {
     }
 }
 
-/// n, R·s, and velocity of the point for [`edge_state`].
+/// Returns n, R·s, and the velocity of the point for [`edge_state`].
 fn edge() -> ([f64; 2], [f64; 2], [f64; 2]) {
     let (n, s) = (turned(0.9, [0.6, 0.8]), turned(0.9, [0.3, 1.2]));
     (n, s, [1.5 - 2.0 * s[1], -0.7 + 2.0 * s[0]])
 }
 
-/// Γ = −ω·(Ω·n)·v_s + ω²·n·R·s for [`edge_state`].
+/// Returns Γ = −ω·(Ω·n)·v_s + ω²·n·R·s for [`edge_state`].
 fn edge_gamma() -> f64 {
     let (n, s, v) = edge();
     -2.0 * (-n[1] * v[0] + n[0] * v[1]) + 4.0 * (n[0] * s[0] + n[1] * s[1])
@@ -104,7 +104,7 @@ fn knife_edge() {
     let (n, s, _) = edge();
     let state = edge_state();
     assert!(k.phi.is_empty() && k.b.is_empty());
-    // Ψ = [n, n·(Ω·R·s)]: the last entry does not depend on the pose, because both vectors rotate
+    // Ψ = [n, n·(Ω·R·s)]. The last entry does not depend on the pose, because both vectors rotate
     // together.
     assert_eq!(at(&k.c), [(0, 0, false), (0, 1, false), (0, 2, true)]);
     let c: Vec<_> = k.c.iter().map(|e| e.value).collect();
@@ -124,7 +124,7 @@ fn knife_edge() {
 fn affine_rheonomic_psi() {
     let (model, _, k) = constraint(VELOCITY);
     let state = edge_state();
-    // n·v_s − f(t) = 0: b = f, Γ = Γ of the knife edge + ḟ.
+    // For n·v_s − f(t) = 0, b is f, and Γ is the sum of ḟ and the Γ of the knife edge.
     assert_close(&state.values(&model, &k.b), &[0.25]);
     assert_close(&state.values(&model, &k.gamma), &[edge_gamma() - 1.5]);
     // ∂(C·v − b)/∂φ = (Ω·n)·v of the origin: the contribution of ω rotates with the normal.
@@ -167,7 +167,7 @@ fn forces_have_generalised_forces_along_their_coordinates() {
         parameters: vec![("k", 10.0), ("c", 2.0)],
         f: Vec::new(),
     };
-    // −(10·1.5 + 2·(−4)) = −7 on body j, 7 on body i.
+    // The torque is −(10·1.5 + 2·(−4)) = −7 on body j and 7 on body i.
     assert_eq!(k.q.iter().map(|(at, _)| *at).collect::<Vec<_>>(), [2, 5]);
     let q: Vec<_> = k.q.iter().map(|(_, e)| *e).collect();
     assert_close(&state.values(&model, &q), &[7.0, -7.0]);

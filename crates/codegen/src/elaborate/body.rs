@@ -1,4 +1,4 @@
-//! The body of a definition: rows with their reaction, or force laws with their coordinates.
+//! The body of a definition: rows and their reaction, or force laws and their coordinates.
 
 use proc_macro2::{Ident, TokenStream};
 use quote::ToTokens;
@@ -106,7 +106,7 @@ impl<'a> Scope<'a> {
         })
     }
 
-    /// The stored value with this name, which these rows of Φ must contain.
+    /// Returns the stored value with this name. These rows of Φ must contain the value.
     fn moved(&self, name: &Ident, rows: &[Row<'_>]) -> syn::Result<Expr> {
         let kept = self.model.kept.iter().find(|k| *name == k.field);
         let number = kept.filter(|k| matches!(k.kind, Kept::Number(_)) && k.of_start);
@@ -149,8 +149,8 @@ impl<'a> Scope<'a> {
         Ok(terms)
     }
 
-    /// Appends the scalars of a list of scalars and vectors. Vectors are appended as their global
-    /// components and recorded with the index of their first row.
+    /// Appends the scalars of a list of scalars and vectors. A vector is appended as its global
+    /// components. The vector is recorded with the index of its first row.
     fn rows(
         &mut self,
         e: &'a syn::Expr,

@@ -1,18 +1,18 @@
 //! The inputs on which each part of a definition may depend. An error marks the smallest wrong part
-//! of the expression, even if this part is used through a `let`.
+//! of the expression, even if the expression uses this part through a `let`.
 
 use symbolic::{Expr, Node};
 
 use super::inputs::Source;
 use super::model::Model;
 
-/// A forbidden kind of input, and the reason.
+/// A kind of input that is forbidden, and the reason for this.
 pub(super) struct Refusal {
     pub(super) bad: fn(&mut Model, Expr) -> bool,
     pub(super) why: &'static str,
 }
 
-/// Values stored at the start, and conditions on the start.
+/// Rules for values stored at the start, and for conditions on the start.
 pub(super) const START: &[Refusal] = &[
     Refusal {
         bad: moves,
@@ -24,7 +24,7 @@ pub(super) const START: &[Refusal] = &[
     },
 ];
 
-/// Rows of Φ.
+/// Rules for rows of Φ.
 pub(super) const PHI: &[Refusal] = &[
     NO_QUOTIENT,
     Refusal {
@@ -37,7 +37,7 @@ pub(super) const PHI: &[Refusal] = &[
     },
 ];
 
-/// Rows of Ψ·q̇ + ψ.
+/// Rules for rows of Ψ·q̇ + ψ.
 pub(super) const PSI: &[Refusal] = &[
     NO_QUOTIENT,
     Refusal {
@@ -50,9 +50,9 @@ pub(super) const PSI: &[Refusal] = &[
     },
 ];
 
-/// The reference point of a reaction. It may contain divisions, because only the kernel of the
-/// reference point uses it. However, if the joint transmits a moment about the reference point, the
-/// kernel of this moment must be a polynomial.
+/// Rules for the reference point of a reaction. The reference point may contain divisions, because
+/// only the kernel of the reference point uses it. However, if the joint transmits a moment about
+/// the reference point, the kernel of this moment must be a polynomial.
 pub(super) const PLACE: &[Refusal] = &[
     Refusal {
         bad: moves,
@@ -64,7 +64,7 @@ pub(super) const PLACE: &[Refusal] = &[
     },
 ];
 
-/// The direction of a named component of a reaction.
+/// Rules for the direction of a named component of a reaction.
 pub(super) const COMPONENT: &[Refusal] = &[
     NO_QUOTIENT,
     Refusal {
@@ -77,7 +77,7 @@ pub(super) const COMPONENT: &[Refusal] = &[
     },
 ];
 
-/// The joint coordinate that a drive prescribes.
+/// Rules for the joint coordinate that a drive prescribes.
 pub(super) const MEASURE: &[Refusal] = &[
     NO_QUOTIENT,
     Refusal {
@@ -90,21 +90,21 @@ pub(super) const MEASURE: &[Refusal] = &[
     },
 ];
 
-/// The coordinate along which a force does work.
+/// Rules for the coordinate along which a force does work.
 pub(super) const COORDINATE: &[Refusal] = &[Refusal {
     bad: moves,
     why: "a force acts on a relative position or angle, not on a velocity: write `force: law on coordinate;` and put \
           the velocity into the law",
 }];
 
-/// The coordinate along which a force does work, or a velocity, linear in the velocities of the
-/// bodies, on which its power depends: Q = law·∂velocity/∂v.
+/// Rules for a coordinate along which a force does work, or for a velocity. The power of the force
+/// depends on this velocity, which is linear in the velocities of the bodies: Q = law·∂velocity/∂v.
 pub(super) const COORDINATE_OR_RATE: &[Refusal] = &[Refusal {
     bad: not_linear,
     why: "a force acts on a relative position, or on a velocity that is linear in those of the bodies",
 }];
 
-/// Arguments of `rate` and `velocity`.
+/// Rules for the arguments of `rate` and `velocity`.
 pub(super) const DIFFERENTIABLE: &[Refusal] = &[
     Refusal {
         bad: moves,
@@ -122,7 +122,7 @@ const NO_QUOTIENT: Refusal = Refusal {
           start only into `initial`, and write a distance as `dot(d, d) - length * length`",
 };
 
-/// Whether an expression contains a velocity.
+/// Returns whether an expression contains a velocity.
 pub(super) fn moves(model: &mut Model, e: Expr) -> bool {
     model.depends_on(e, |s| matches!(s, Source::Twist { .. }))
 }

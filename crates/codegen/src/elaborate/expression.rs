@@ -10,15 +10,15 @@ use super::value::Value;
 use crate::parse::Definition;
 use crate::vector::{Components, Frame, Vector};
 
-/// Allowed magnitudes of literals, so that products of a few literals and of their derivatives do
-/// not overflow.
+/// Allowed magnitudes of literals. With these magnitudes, products of a few literals and of their
+/// derivatives do not overflow.
 const NUMBERS: std::ops::RangeInclusive<f64> = 1e-60..=1e60;
 
 /// Highest allowed power; no joint needs more.
 const POWER: u32 = 32;
 
 impl<'a> Scope<'a> {
-    /// The value of an expression.
+    /// Returns the value of an expression.
     pub(super) fn value(&mut self, e: &'a syn::Expr) -> syn::Result<Value> {
         let value = self.unbounded(e)?;
         match out_of_bounds(&self.model.g, &value) {
@@ -77,8 +77,8 @@ impl<'a> Scope<'a> {
         }
     }
 
-    /// A vector, or the vector with these components in the frame of a body. It is used for
-    /// products and lengths, which do not depend on a point.
+    /// Returns a vector, or the vector with these components in the frame of a body. The result is
+    /// used for products and lengths, which do not depend on a point.
     pub(super) fn free_vector(&mut self, e: &'a syn::Expr) -> syn::Result<Vector> {
         match self.value(e)? {
             Value::Vector(v) => Ok(v),
@@ -87,7 +87,7 @@ impl<'a> Scope<'a> {
         }
     }
 
-    /// The scalars of a value; a vector as its global components.
+    /// Returns the scalars of a value. For a vector, these are its global components.
     pub(super) fn components(&mut self, value: Value, at: &syn::Expr) -> syn::Result<Vec<Expr>> {
         match value {
             Value::Scalar(e) => Ok(vec![e]),
@@ -103,7 +103,7 @@ impl<'a> Scope<'a> {
         }
     }
 
-    /// Components in the frame of the body in a slot.
+    /// Returns the components in the frame of the body in a slot.
     pub(super) fn local_in(
         &self,
         slot: usize,
@@ -220,7 +220,7 @@ impl<'a> Scope<'a> {
         }
     }
 
-    /// The smallest part of `e` to which the refusal applies.
+    /// Returns the smallest part of `e` to which the refusal applies.
     fn culprit(&mut self, e: &'a syn::Expr, r: &Refusal) -> &'a syn::Expr {
         let parts = parts(self.definition, e);
         let bad = |part: &&'a syn::Expr| {
@@ -234,12 +234,12 @@ impl<'a> Scope<'a> {
     }
 }
 
-/// Whether the refusal applies to one of the scalars of a value.
+/// Returns whether the refusal applies to one of the scalars of a value.
 fn is_bad(model: &mut Model, value: &Value, r: &Refusal) -> bool {
     value.scalars().into_iter().any(|s| (r.bad)(model, s))
 }
 
-/// The value of a literal.
+/// Returns the value of a literal.
 fn number(g: &mut Graph, literal: &Lit) -> syn::Result<Value> {
     let (x, suffix) = match literal {
         Lit::Float(f) => (f.base10_parse::<f64>()?, f.suffix()),
@@ -287,7 +287,8 @@ fn out_of_bounds(g: &Graph, value: &Value) -> Option<String> {
     })
 }
 
-/// The direct parts of an expression; for the name of a `let`, the parts of its value.
+/// Returns the direct parts of an expression. For the name of a `let`, these are the parts of its
+/// value.
 fn parts<'a>(definition: &'a Definition, e: &'a syn::Expr) -> Vec<&'a syn::Expr> {
     match e {
         syn::Expr::Paren(inner) => vec![&inner.expr],

@@ -11,7 +11,7 @@ use crate::nearest::{hint, list};
 use crate::space::Space;
 use crate::vector::{Components, Frame, Vector};
 
-/// Names of the functions of both spaces with their numbers of arguments.
+/// Names of the functions of both spaces, each with its number of arguments.
 const FUNCTIONS: [(&str, usize); 11] = [
     ("point", 2),
     ("direction", 2),
@@ -26,10 +26,10 @@ const FUNCTIONS: [(&str, usize); 11] = [
     ("dot", 2),
 ];
 
-/// Names of the functions of the plane.
+/// Names of the functions of the plane, each with its number of arguments.
 const PLANE: [(&str, usize); 4] = [("angle", 1), ("start", 1), ("along", 1), ("perp", 1)];
 
-/// Names of the functions of space.
+/// Names of the functions of space, each with its number of arguments.
 const SPACE3: [(&str, usize); 8] = [
     ("angle", 2),
     ("turn", 3),
@@ -187,8 +187,8 @@ impl<'a> Scope<'a> {
         }
     }
 
-    /// The angle of the axes `to` relative to the axes `from` about their common w, computed from
-    /// its sine v·u' and its cosine u·u'.
+    /// Returns the angle of the axes `to` relative to the axes `from` about their common w. The
+    /// angle is computed from its sine v·u' and its cosine u·u'.
     fn angle_about(&mut self, from: &'a syn::Expr, to: &'a syn::Expr) -> syn::Result<Value> {
         let mut axes = Vec::new();
         for e in [from, to] {
@@ -207,7 +207,8 @@ impl<'a> Scope<'a> {
         })
     }
 
-    /// `r_i`, or `r_i + R_i·s`, or `R_i·s`; `vector(ground, [a, b, c])` has ground components.
+    /// Returns `r_i`, `r_i + R_i·s` or `R_i·s`. The vector `vector(ground, [a, b, c])` has ground
+    /// components.
     fn placed(
         &mut self,
         function: &str,
@@ -280,12 +281,13 @@ impl<'a> Scope<'a> {
     }
 }
 
-/// Whether the frame is the ground.
+/// Returns whether the frame is the ground.
 fn is_ground(slot: &syn::Expr) -> bool {
     matches!(slot, syn::Expr::Path(p) if p.path.is_ident("ground"))
 }
 
-/// The scalars of a list; their number must be the number of components of a vector.
+/// Returns the scalars of a list. The number of scalars must be the number of components of a
+/// vector.
 fn listed(space: Space, value: Value, at: &syn::Expr) -> syn::Result<Components> {
     let expected = components_in_words(space);
     let Value::List(list) = &value else {

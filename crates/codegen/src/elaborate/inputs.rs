@@ -1,5 +1,5 @@
 //! The inputs of kernels: the symbol for each argument. Symbols are created in a fixed order,
-//! because the canonical order of terms depends on it.
+//! because the canonical order of terms depends on the order of the symbols.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -23,8 +23,8 @@ pub(crate) enum Source {
     Acceleration { slot: usize, field: &'static str },
     /// A derivative of a function of time.
     Function { index: usize, order: usize },
-    /// A value of an unwrapped angle, at the position of a function of time: the angle, its cosine
-    /// or its sine.
+    /// A value of an unwrapped angle: the angle, its cosine or its sine. The value is passed at the
+    /// position of a function of time.
     Counted { index: usize },
     /// A parameter, with the tokens of the expression that reads it.
     Parameter { access: String },
@@ -35,8 +35,8 @@ pub(crate) enum Source {
 }
 
 impl Source {
-    /// The value as an expression in the kernel; the flag is `true` for values that are always
-    /// `f64`.
+    /// Returns the value as an expression in the kernel. The flag is `true` for values that are
+    /// always `f64`.
     pub(crate) fn access(&self) -> (TokenStream, bool) {
         let index = Literal::usize_unsuffixed;
         let of_slot = |array: TokenStream, slot: usize, field: &str| {
@@ -73,7 +73,7 @@ impl Source {
 pub(crate) struct Slot {
     /// Inputs in the order of [`Space::pose`].
     pub(crate) pose: Vec<Expr>,
-    /// Inputs in the order of [`Space::twist`], as for `acceleration`.
+    /// Inputs in the order of [`Space::twist`]; the inputs of `acceleration` have the same order.
     pub(crate) twist: Vec<Expr>,
     pub(crate) acceleration: Vec<Expr>,
 }
@@ -82,7 +82,7 @@ pub(crate) struct Slot {
 pub(crate) struct Inputs {
     pub(crate) space: Space,
     sources: BTreeMap<Symbol, Source>,
-    /// Values of each parameter, in the order of its components.
+    /// The values of each parameter, in the order of the components of the parameter.
     params: BTreeMap<String, Vec<Expr>>,
     taken: BTreeSet<String>,
     pub(crate) slots: Vec<Slot>,
@@ -90,17 +90,17 @@ pub(crate) struct Inputs {
     pub(crate) defined: Defined,
     /// Jets of the functions of time.
     pub(crate) functions: Vec<[Expr; 3]>,
-    /// The jet of a drive's motion and the initial value of its joint coordinate.
+    /// The jet of the motion of a drive, and the initial value of its joint coordinate.
     pub(crate) motion: [Expr; 3],
     pub(crate) measure_0: Expr,
-    /// For angles in space: the jets of the cosine and the sine of the motion, and the cosine and
-    /// sine of the initial angle.
+    /// The jets of the cosine and the sine of the motion, and the cosine and sine of the initial
+    /// angle. The jets are used for angles in space.
     pub(crate) motion_turn: [[Expr; 3]; 2],
     pub(crate) turn_0: [Expr; 2],
     pub(crate) lambda: Vec<Expr>,
 }
 
-/// Arguments of kernels: an input with one of these names is renamed.
+/// Names of arguments of kernels. An input with one of these names is renamed.
 pub(crate) const ARGUMENTS: [&str; 6] = ["x", "v", "a", "f", "lambda", "out"];
 
 impl Inputs {
@@ -248,7 +248,8 @@ impl Inputs {
         self.params.insert(name.to_owned(), values);
     }
 
-    /// Creates inputs for pairs of a name and the field that contains the value.
+    /// Creates inputs for pairs. Each pair consists of a name and the field that contains the
+    /// value.
     fn add_numbers(&mut self, g: &mut Graph, components: &[(String, String)]) -> Vec<Expr> {
         components
             .iter()
@@ -280,9 +281,9 @@ impl Inputs {
         })
     }
 
-    /// A new input. Different inputs have different names, whatever names the author used: the
-    /// component `s_i_x` of a point `s_i` and a length named `s_i_x` are distinguished by an
-    /// underscore.
+    /// Creates an input. Different inputs have different names, whatever names the author used. For
+    /// example, an underscore distinguishes the component `s_i_x` of a point `s_i` from a length
+    /// with the name `s_i_x`.
     fn add(&mut self, g: &mut Graph, name: &str, source: Source) -> Expr {
         let mut name = name.to_owned();
         while !self.taken.insert(name.clone()) {
@@ -294,7 +295,7 @@ impl Inputs {
         e
     }
 
-    /// Symbols of a value stored at the start.
+    /// Creates the symbols of a value stored at the start.
     pub(crate) fn kept(&mut self, g: &mut Graph, field: &str, kind: &Kept) -> Vec<Expr> {
         let components = match kind {
             Kept::Number(_) => vec![(field.to_owned(), format!("self.{field}"))],
@@ -319,8 +320,9 @@ impl Inputs {
             .collect()
     }
 
-    /// The values of the unwrapped angle with index `k`: the angle since the start, its cosine and
-    /// its sine. As arguments they come after the functions of time.
+    /// Creates the values of the unwrapped angle with index `k`: the angle since the start, its
+    /// cosine and its sine. In the arguments of kernels, these values come after the functions of
+    /// time.
     pub(crate) fn counted(&mut self, g: &mut Graph, name: &str, k: usize) -> [Expr; 3] {
         let first = self.functions.len() + 3 * k;
         [
@@ -331,24 +333,26 @@ impl Inputs {
         .map(|(index, part)| self.add(g, &format!("{name}_{part}"), Source::Counted { index }))
     }
 
-    /// Values of a parameter: one value for a scalar, two components for a point or a direction.
+    /// Returns the values of a parameter: one value for a scalar, and two components for a point or
+    /// a direction.
     pub(crate) fn values(&self, name: &str) -> &[Expr] {
         &self.params[name]
     }
 
-    /// Start and direction of a line.
+    /// Returns the start and the direction of a line.
     pub(crate) fn line(&self, name: &str) -> (Components, Components) {
         let values = self.values(name);
         (vec![values[0], values[2]], vec![values[1], values[3]])
     }
 
-    /// Components of the directions u, v and w of a parameter of axes.
+    /// Returns the components of the directions u, v and w of a parameter of axes.
     pub(crate) fn axes(&self, name: &str) -> [Components; 3] {
         let values = self.values(name);
         [0, 1, 2].map(|k| values[3 * k..3 * k + 3].to_vec())
     }
 
-    /// Whether the input with this name is the cosine (0) or the sine (1) of a drive's motion.
+    /// Returns whether the input with this name is the cosine (`part` 0) or the sine (`part` 1) of
+    /// the motion of a drive.
     pub(crate) fn is_motion_turn(&self, name: &str, part: usize) -> bool {
         self.space == Space::Space3
             && name.trim_end_matches('_') == ["motion_cos", "motion_sin"][part]
@@ -378,7 +382,7 @@ impl Inputs {
         }
     }
 
-    /// The derivation of the pose of a slot along a unit velocity of one degree of freedom.
+    /// Returns the derivation of the pose of a slot along a unit velocity of one degree of freedom.
     pub(crate) fn along_dof(&self, g: &mut Graph, slot: usize, dof: usize) -> Along {
         let (zero, one) = (g.number(0.0), g.number(1.0));
         let mut velocity = vec![zero; self.space.n_dof()];
@@ -400,18 +404,19 @@ impl Inputs {
         Along::new(g, &self.defined, &images, spins)
     }
 
-    /// The derivation with these images of inputs that are not poses.
+    /// Returns the derivation with these images of inputs that are not poses.
     pub(crate) fn derivation(&self, g: &Graph, images: &[(Expr, Expr)]) -> Along {
         Along::new(g, &self.defined, images, Vec::new())
     }
 
-    /// The partial derivative with respect to an input that is not a pose.
+    /// Returns the partial derivative with respect to an input that is not a pose.
     pub(crate) fn partial(&self, g: &mut Graph, by: Expr) -> Along {
         let one = g.number(1.0);
         self.derivation(g, &[(by, one)])
     }
 
-    /// Each coordinate of the pose of the body in a slot, with its rate for these velocities.
+    /// Returns each coordinate of the pose of the body in a slot, with its rate for these
+    /// velocities.
     fn pose_rates(&self, g: &mut Graph, slot: usize, v: &[Expr]) -> Vec<(Expr, Expr)> {
         let s = &self.slots[slot];
         let dim = self.space.dim();
@@ -434,13 +439,13 @@ impl Inputs {
         s.pose.iter().copied().zip(rates).collect()
     }
 
-    /// `d/dt` along the motion, without the acceleration terms.
+    /// Returns `d/dt` along the motion, without the acceleration terms.
     pub(crate) fn time_derivation(&self, g: &mut Graph) -> Along {
         let images = self.rates(g);
         Along::new(g, &self.defined, &images, self.time_spins()).in_time()
     }
 
-    /// `d/dt` along the motion, with the acceleration terms.
+    /// Returns `d/dt` along the motion, with the acceleration terms.
     pub(crate) fn full_time_derivation(&self, g: &mut Graph) -> Along {
         let mut images = self.rates(g);
         for s in &self.slots {
@@ -456,7 +461,7 @@ impl Inputs {
         }
     }
 
-    /// Rates of poses and functions of time.
+    /// Returns the rates of poses and functions of time.
     fn rates(&self, g: &mut Graph) -> Vec<(Expr, Expr)> {
         let mut images = Vec::new();
         for slot in 0..self.slots.len() {
@@ -473,7 +478,7 @@ impl Inputs {
     }
 }
 
-/// R of a slot in space, by rows.
+/// Returns R of a slot in space, by rows.
 fn rotation(s: &Slot) -> [[Expr; 3]; 3] {
     [0, 1, 2].map(|row| [0, 1, 2].map(|k| s.pose[3 + 3 * row + k]))
 }

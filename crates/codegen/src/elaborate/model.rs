@@ -14,10 +14,10 @@ use crate::vector::{Components, Frame, Turn, Vector};
 pub(crate) struct Model {
     pub(crate) g: Graph,
     pub(crate) inputs: Inputs,
-    /// Total time derivative without the acceleration terms.
+    /// The total time derivative without the acceleration terms.
     pub(crate) time: Along,
     pub(crate) turns: Vec<Turn>,
-    /// Sub-expressions that have a name.
+    /// The sub-expressions that have a name.
     pub(crate) names: Vec<(Expr, String)>,
     /// The values stored at the assembled start, in order.
     pub(crate) kept: Vec<KeptValue>,
@@ -34,7 +34,7 @@ pub(crate) struct KeptValue {
     pub(crate) kind: Kept,
     /// The kernel inputs that represent the value.
     pub(crate) symbols: Vec<Expr>,
-    /// Values at the start.
+    /// The values of the symbols at the start.
     pub(crate) values: Vec<Expr>,
     /// The optional parameter that overrides the value.
     pub(crate) overridden_by: Option<Ident>,
@@ -43,7 +43,7 @@ pub(crate) struct KeptValue {
 }
 
 /// An angle in space, measured from the start. The expressions determine the angle up to full
-/// revolutions, and its rate.
+/// revolutions. The expressions also determine the rate of the angle.
 #[derive(Clone, Copy)]
 pub(crate) struct Counted {
     pub(crate) cos: Expr,
@@ -82,13 +82,15 @@ pub(crate) struct ConstraintBody {
 /// The quantity that a drive prescribes.
 #[derive(Clone, Copy)]
 pub(crate) enum Measure {
-    /// An expression: its row is coordinate − initial value − motion.
+    /// The drive prescribes an expression. The row of the drive is coordinate − initial value −
+    /// motion.
     Of(Expr),
-    /// A value stored at the start. The motion of the drive is added to this value in the rows of
-    /// the joint, and the resulting rows replace the rows of the joint.
+    /// The drive prescribes a value stored at the start. The motion of the drive is added to this
+    /// value in the rows of the joint, and the resulting rows replace the rows of the joint.
     Kept(Expr),
-    /// An angle θ in space: its row is sin(θ − initial angle − motion). This row is a polynomial in
-    /// the sines and cosines, so that revolutions need not be counted.
+    /// The drive prescribes an angle θ in space. The row of the drive is sin(θ − initial angle −
+    /// motion). This row is a polynomial in the sines and cosines, so that revolutions need not be
+    /// counted.
     Angle { sin: Expr, cos: Expr },
 }
 
@@ -114,7 +116,7 @@ impl Condition {
     }
 }
 
-/// Comparison of two scalars.
+/// A comparison of two scalars.
 #[derive(Clone, Copy)]
 pub(crate) enum Comparison {
     Equal,
@@ -124,20 +126,20 @@ pub(crate) enum Comparison {
 }
 
 impl Model {
-    /// Whether an expression depends on inputs from some source.
+    /// Returns whether an expression depends on inputs for whose source `origin` returns `true`.
     pub(crate) fn depends_on(&self, e: Expr, origin: impl Fn(&Source) -> bool) -> bool {
         let inputs = self.inputs.defined.inputs(&self.g, e);
         inputs.into_iter().any(|s| origin(self.inputs.source(s)))
     }
 
-    /// The expression in which every symbol for a rotated vector or a product is replaced by its
-    /// definition.
+    /// Returns the expression in which every symbol for a rotated vector or a product is replaced
+    /// by its definition.
     pub(crate) fn expand(&mut self, e: Expr) -> Expr {
         self.inputs.defined.expand(&mut self.g, e)
     }
 
-    /// The angle with this cosine and sine, measured from the angle with the cosine and sine in
-    /// `start`.
+    /// Returns the angle with this cosine and sine, measured from the angle with the cosine and
+    /// sine in `start`.
     pub(crate) fn angle_since(&mut self, [cos, sin]: [Expr; 2], start: [Expr; 2]) -> Counted {
         let [cos_0, sin_0] = start;
         let g = &mut self.g;
@@ -152,10 +154,11 @@ impl Model {
         Counted { cos, sin, rate }
     }
 
-    /// The angle since the start, with its full revolutions: the given value, plus a correction for
-    /// the remaining difference ε, `sin ε·(4 − cos ε)/3 = ε + O(ε⁵)`. The result is the angle if
-    /// the given value is accurate to rounding, and a polynomial whose first four derivatives are
-    /// exact there; Γ and its derivatives need three.
+    /// Returns the angle since the start, with its full revolutions. The angle is the sum of the
+    /// given value and a correction for the remaining difference ε, `sin ε·(4 − cos ε)/3 = ε +
+    /// O(ε⁵)`. If the given value is accurate to rounding, the result is the angle. The result is a
+    /// polynomial, and its first four derivatives are exact at this value. Γ and its derivatives
+    /// need three of them.
     pub(super) fn counted_angle(&mut self, name: &Ident, angle: &[Expr], start: &[Expr]) -> Expr {
         let Self {
             g, inputs, counted, ..
@@ -198,13 +201,14 @@ impl Model {
         requirements.iter_mut().for_each(|c| c.visit(&mut expand));
     }
 
-    /// Whether a stored value is computed only from other values, so that it changes with them.
+    /// Returns whether a stored value is computed only from other values, so that it changes with
+    /// the other values.
     pub(crate) fn is_computed(&self, kept: &KeptValue) -> bool {
         let reads_poses = |&e: &Expr| self.depends_on(e, |s| matches!(s, Source::Pose { .. }));
         kept.overridden_by.is_none() && !kept.values.iter().any(reads_poses)
     }
 
-    /// Whether a value depends on the configuration, directly or through stored values.
+    /// Returns whether a value depends on the configuration, directly or through stored values.
     pub(crate) fn depends_on_start(&self, e: Expr) -> bool {
         self.depends_on(e, |s| match s {
             Source::Pose { .. } => true,

@@ -1,4 +1,4 @@
-//! Names of a definition, with their values.
+//! The names of a definition, with their values.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -39,7 +39,7 @@ impl Names {
         }
     }
 
-    /// The value of a name, which counts as used.
+    /// Returns the value of a name, and records that the name is used.
     pub(super) fn value(&mut self, definition: &Definition, name: &Ident) -> syn::Result<Value> {
         let key = name.to_string();
         if let Some(value) = self.values.get(&key) {

@@ -4,7 +4,7 @@ use super::Body;
 use crate::Kind;
 use crate::testing::{State, assert_close, constraint, error, model};
 
-/// A constraint on two bodies with points, a direction, numbers and functions.
+/// Returns the text of a constraint on two bodies with points, a direction, numbers and functions.
 fn joint(items: &str) -> String {
     format!(
         "plane A(i, j) {{ /// Doc.
@@ -40,7 +40,7 @@ fn state() -> State {
     }
 }
 
-/// The value of an expression of the language at [`state`].
+/// Returns the value of an expression of the language at [`state`].
 fn value(expression: &str) -> f64 {
     let (model, body, _) = constraint(&with_phi(expression));
     let (base_model, base, _) = constraint(&with_phi("0.0"));
@@ -388,7 +388,7 @@ fn laws_take_rates() {
     assert_close(&[state().value(&model, terms[0].0)], &[0.25 + 0.5 + 0.75]);
 }
 
-/// A constraint in space with points, axes and a plane.
+/// Returns the text of a constraint in space with points, axes and a plane.
 fn spatial(items: &str) -> String {
     format!(
         "space A(i, j) {{ /// Doc.

@@ -9,7 +9,7 @@ use crate::vector::{Components, Vector};
 pub(crate) enum Value {
     Scalar(Expr),
     Vector(Vector),
-    /// Components in the frame of a body.
+    /// Components of a vector in the frame of a body.
     Local {
         slot: usize,
         local: Components,
@@ -29,7 +29,7 @@ pub(crate) enum Value {
         slot: usize,
         axes: [Components; 3],
     },
-    /// An angle in space, by its sine and cosine.
+    /// An angle in space, given by its sine and cosine.
     Angle {
         sin: Expr,
         cos: Expr,
@@ -64,8 +64,8 @@ impl Value {
         }
     }
 
-    /// Description of how a vector is obtained from the value; `None` for a scalar, a vector and a
-    /// list.
+    /// Returns the description of how a vector is obtained from the value. The result is `None` for
+    /// a scalar, a vector and a list.
     pub(super) fn as_vector(&self) -> Option<&'static str> {
         Some(match self {
             Self::Point { .. } => "the point of body i that a parameter `s` gives is `point(i, s)`",
@@ -84,7 +84,7 @@ impl Value {
 }
 
 impl Value {
-    /// All scalars of the value.
+    /// Returns all scalars of the value.
     pub(super) fn scalars(&self) -> Vec<Expr> {
         match self {
             Self::Scalar(e) => vec![*e],

@@ -1,4 +1,5 @@
-//! Constructors of the generated types: from their parameters, without values stored at the start.
+//! Constructors of the generated types. The constructors take the parameters, without the values
+//! stored at the start.
 
 use proc_macro2::{Ident, TokenStream};
 use quote::{format_ident, quote};
@@ -7,8 +8,9 @@ use super::parts::{Driven, field_type, index, measure_0};
 use crate::elaborate::Model;
 use crate::parse::{Definition, Kept};
 
-/// `new` with the parameters without a default, and a method for each parameter with a default. The
-/// values stored at the start are set by `initialise` and cannot be given.
+/// Returns `new` with the parameters that have no default, and a method for each parameter with a
+/// default. The function `initialise` sets the values stored at the start, so a user cannot give
+/// these values.
 pub(super) fn constructors(
     d: &Definition,
     model: &Model,
@@ -44,7 +46,7 @@ pub(super) fn constructors(
         }
     });
     let fields = fields.chain(kept).chain(driven.and_then(measure_0));
-    // The lints are about the number of parameters, which the definition determines.
+    // The number of parameters causes the lints, and the definition determines this number.
     let lints = match required.len() {
         0 => Some(quote!(#[allow(clippy::new_without_default)])),
         8.. => Some(quote!(#[allow(clippy::too_many_arguments)])),

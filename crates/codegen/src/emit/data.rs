@@ -13,7 +13,7 @@ use crate::elaborate::Model;
 use crate::kernel::kernel;
 use crate::parse::Definition;
 
-/// The list of data.
+/// Returns the list of data.
 pub(super) fn facts(d: &Definition, data: &[Datum]) -> TokenStream {
     let mut first = 0;
     let data = data.iter().map(|datum| {
@@ -48,8 +48,8 @@ pub(super) fn facts(d: &Definition, data: &[Datum]) -> TokenStream {
     quote!(&[#(#data),*])
 }
 
-/// The stored values of a constraint that its rows read, and their derivatives with respect to its
-/// data.
+/// The stored values of a constraint that its rows read, and the derivatives of these values with
+/// respect to the data.
 pub(super) struct Stored {
     pub(super) symbols: Vec<Symbol>,
     slopes: Vec<(usize, usize, Expr)>,
@@ -62,8 +62,8 @@ impl Stored {
         Self { symbols, slopes }
     }
 
-    /// The number of derivatives at the beginning of the list that belong to consecutive stored
-    /// values which are data themselves.
+    /// Returns the number of derivatives at the beginning of the list that belong to consecutive
+    /// stored values, each of which is itself a datum.
     fn run_of_numbers(model: &Model, slopes: &[(usize, usize, Expr)]) -> usize {
         let [(first, by, _), ..] = slopes else {
             return 0;
@@ -77,7 +77,8 @@ impl Stored {
         numbers.count()
     }
 
-    /// The statements that read the stored values; components of one array are read together.
+    /// Returns the statements that read the stored values. Components of one array are read
+    /// together.
     fn reads(&self, model: &Model) -> Vec<TokenStream> {
         let mut runs: Vec<(String, usize)> = Vec::new();
         for &symbol in &self.symbols {
@@ -102,7 +103,7 @@ impl Stored {
         reads.collect()
     }
 
-    /// `programs`, `stored` and `d_stored_dp`.
+    /// Returns the methods `programs`, `stored` and `d_stored_dp`.
     pub(super) fn methods(&self, model: &Model) -> TokenStream {
         let reads = self.reads(model);
         let values: Vec<Expr> = self.slopes.iter().map(|(.., value)| *value).collect();
@@ -141,7 +142,7 @@ impl Stored {
     }
 }
 
-/// `k` plus this number.
+/// Returns the tokens of the sum of `k` and this number.
 fn shifted(first: usize) -> TokenStream {
     let first_index = index(first);
     match first {
@@ -150,10 +151,10 @@ fn shifted(first: usize) -> TokenStream {
     }
 }
 
-/// `data` and `set_data`.
+/// Returns the methods `data` and `set_data`.
 pub(super) fn methods(model: &Model, data: &[Datum]) -> TokenStream {
-    // Axes and angles stored by cosine and sine have only changes as data; at first the changes are
-    // zero.
+    // For axes, and for angles stored by cosine and sine, the data are only changes. At first the
+    // changes are zero.
     let numbers = data.iter().flat_map(|d| {
         let changes = d.count() < d.symbols.len();
         let symbols = d.symbols.iter().take(d.count());
@@ -166,8 +167,8 @@ pub(super) fn methods(model: &Model, data: &[Datum]) -> TokenStream {
         };
         let symbol = model.g.as_symbol(e).expect("data are inputs");
         let (access, _) = model.inputs.source(symbol).access();
-        // Before `initialise`, a value that the user gave is not yet in the field that the kernels
-        // read.
+        // Before `initialise`, the field that the kernels read does not contain a value that the
+        // user gave.
         match &datum.overridden_by {
             Some(given) => quote!(out[#k] = self.#given.unwrap_or(#access);),
             None => quote!(out[#k] = #access;),

@@ -97,8 +97,8 @@ pub(super) fn constraint_spec(
     }
 }
 
-/// The patterns of the derivatives of rows. Most rows have the same pattern for all three
-/// derivatives; it is printed once.
+/// Returns the patterns of the derivatives of rows. For most definitions, all three derivatives
+/// have the same pattern; this pattern is printed once.
 fn of_rows(k: &ConstraintKernels) -> (Option<TokenStream>, [TokenStream; 3]) {
     let blocks = [&k.d_residual_dx, &k.d_gamma_dv, &k.d_velocity_dx];
     let same = |a: &Sparse, b: &Sparse| a.iter().map(|e| e.0).eq(b.iter().map(|e| e.0));

@@ -1,4 +1,5 @@
-//! Common parts of constraints and forces: the type, its constructor, values stored at the start.
+//! Parts that constraints and forces have in common: the type, its constructor, and the values
+//! stored at the start.
 
 use proc_macro2::{Ident, TokenStream};
 use quote::{format_ident, quote};
@@ -19,14 +20,14 @@ pub(super) struct Type {
     pub(super) doc: Vec<String>,
     pub(super) component: Option<String>,
     pub(super) drives: Vec<Drive>,
-    /// `None` for a joint.
+    /// The way in which the drive moves its joint coordinate; `None` for a joint.
     pub(super) driven: Option<Driven>,
     pub(super) scene_type: String,
     pub(super) data: Vec<Datum>,
-    /// Number of angles that the kernels receive with their revolutions.
+    /// Number of angles that the kernels receive including full revolutions.
     pub(super) turns: usize,
-    /// The angles whose cosine, sine and rate the type returns: the unwrapped angles, or the joint
-    /// coordinate that it drives.
+    /// The angles whose cosine, sine and rate the type returns. The angles are the unwrapped
+    /// angles, or the joint coordinate that the drive moves.
     pub(super) counted: Vec<Counted>,
 }
 
@@ -38,14 +39,14 @@ pub(super) struct Drive {
     pub(super) by: Driven,
 }
 
-/// Method by which a drive moves its joint coordinate.
+/// The method by which a drive moves its joint coordinate.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(super) enum Driven {
-    /// With a separate row.
+    /// The drive has a separate row.
     Measure,
-    /// With a separate row for an angle in space, by cosine and sine.
+    /// The drive has a separate row for an angle in space, by cosine and sine.
     Turn,
-    /// With the rows of the joint, which it replaces.
+    /// The drive has the rows of the joint, and replaces the joint.
     Rows,
 }
 
@@ -56,7 +57,7 @@ pub(super) fn scene_type(d: &Definition) -> String {
     }
 }
 
-/// The imports that the generated items need.
+/// Returns the imports that the generated items need.
 pub(super) fn uses(runtime: &TokenStream, space: Space, constraint: bool) -> TokenStream {
     let (traits, specs) = if constraint {
         (
@@ -133,7 +134,7 @@ pub(super) fn uses(runtime: &TokenStream, space: Space, constraint: bool) -> Tok
     }
 }
 
-/// The type with its fields.
+/// Returns the type with its fields.
 pub(super) fn structure(
     d: &Definition,
     model: &Model,
@@ -189,8 +190,8 @@ pub(super) fn structure(
     }
 }
 
-/// The drives of a joint with its parameters, one method for each joint coordinate; empty if there
-/// is no joint coordinate.
+/// Returns the drives of a joint with its parameters: one method for each joint coordinate. The
+/// result is empty if there is no joint coordinate.
 pub(super) fn drives(
     d: &Definition,
     model: &Model,
@@ -218,7 +219,7 @@ pub(super) fn drives(
     (!methods.is_empty()).then(|| quote!(impl #name { #(#methods)* }))
 }
 
-/// The purpose of a parameter, followed by its kind.
+/// Returns the purpose of a parameter, followed by its kind.
 fn param_doc(p: &Param, d: &Definition) -> String {
     let slot = |s: &Ident| match d.slots.len() {
         1 => "the body".to_owned(),
@@ -247,7 +248,8 @@ fn param_doc(p: &Param, d: &Definition) -> String {
     }
 }
 
-/// Functions of time are not fields: they are passed as jets.
+/// Returns the type of the field of a parameter. Functions of time are not fields, because they are
+/// passed as jets.
 pub(super) fn field_type(space: Space, p: &Param) -> Option<TokenStream> {
     Some(match &p.kind {
         ParamKind::Point(_) => vector(space),
@@ -265,13 +267,13 @@ pub(super) fn field_type(space: Space, p: &Param) -> Option<TokenStream> {
     })
 }
 
-/// The type of the components of a vector.
+/// Returns the type of the components of a vector.
 pub(super) fn vector(space: Space) -> TokenStream {
     let dim = index(space.dim());
     quote!([f64; #dim])
 }
 
-/// The field of the initial joint coordinate, before the start is assembled.
+/// Returns the field of the initial joint coordinate, before the start is assembled.
 pub(super) fn measure_0(by: Driven) -> Option<TokenStream> {
     match by {
         Driven::Measure => Some(quote!(measure_0: 0.0)),
@@ -280,18 +282,18 @@ pub(super) fn measure_0(by: Driven) -> Option<TokenStream> {
     }
 }
 
-/// An integer literal without suffix.
+/// Returns an integer literal without suffix.
 pub(crate) fn index(k: usize) -> proc_macro2::Literal {
     proc_macro2::Literal::usize_unsuffixed(k)
 }
 
-/// The index of a slot.
+/// Returns the index of a slot.
 pub(super) fn slot(d: &Definition, name: &Ident) -> proc_macro2::Literal {
     let slot = d.slots.iter().position(|s| s == name);
     index(slot.expect("checked while elaborating"))
 }
 
-/// The constructor from checked arguments.
+/// Returns the constructor that takes checked arguments.
 pub(super) fn from_arguments(d: &Definition, driven: Option<Driven>) -> TokenStream {
     let mut reads: Vec<TokenStream> = d
         .params
@@ -349,8 +351,8 @@ pub(super) fn from_arguments(d: &Definition, driven: Option<Driven>) -> TokenStr
     }
 }
 
-/// The method that computes the values stored at the start. Each value may use the values before
-/// it.
+/// Returns the method that computes the values stored at the start. Each value may use the earlier
+/// values.
 pub(super) fn initialise(model: &Model, measure: Option<Measure>) -> Option<TokenStream> {
     let kept = model.kept.iter().map(|k| {
         let field = format_ident!("{}", k.field);
@@ -388,8 +390,8 @@ pub(super) fn initialise(model: &Model, measure: Option<Measure>) -> Option<Toke
     })
 }
 
-/// Statements that store the cosine and sine of an angle. The computed values are divided by their
-/// length √(cos² + sin²), because the axes may be only nearly parallel.
+/// Returns statements that store the cosine and sine of an angle. The computed values are divided
+/// by their length √(cos² + sin²), because the axes may be only nearly parallel.
 fn unit_turn(model: &Model, field: &Ident, turn: &[Expr]) -> TokenStream {
     let printed = kernel(model, turn, Scalar::F64);
     let (statements, outputs) = (&printed.statements, &printed.outputs);
@@ -401,8 +403,8 @@ fn unit_turn(model: &Model, field: &Ident, turn: &[Expr]) -> TokenStream {
     }
 }
 
-/// The method that returns cosine, sine and rate of each unwrapped angle; `None` if there is no
-/// such angle.
+/// Returns the method that computes the cosine, the sine and the rate of each unwrapped angle. The
+/// result is `None` if there is no such angle.
 pub(super) fn turned(model: &Model, counted: &[Counted]) -> Option<TokenStream> {
     if counted.is_empty() {
         return None;
@@ -419,7 +421,7 @@ pub(super) fn turned(model: &Model, counted: &[Counted]) -> Option<TokenStream> 
     })
 }
 
-/// The literal in a block that contains only a literal.
+/// Returns the literal of a block that contains only a literal.
 fn literal(block: &TokenStream) -> Option<syn::ExprLit> {
     let block: syn::Block = syn::parse2(block.clone()).ok()?;
     match block.stmts.as_slice() {
@@ -428,7 +430,7 @@ fn literal(block: &TokenStream) -> Option<syn::ExprLit> {
     }
 }
 
-/// The block that computes a stored value.
+/// Returns the block that computes a stored value.
 pub(super) fn kept_value(model: &Model, k: &KeptValue) -> TokenStream {
     let printed = kernel(model, &k.values, Scalar::F64);
     let (statements, outputs) = (&printed.statements, &printed.outputs);
@@ -438,7 +440,7 @@ pub(super) fn kept_value(model: &Model, k: &KeptValue) -> TokenStream {
     }
 }
 
-/// The method that checks requirement `k`.
+/// Returns the method that checks requirement `k`.
 pub(super) fn requirement(model: &Model) -> Option<TokenStream> {
     let arms = model.requirements.iter().enumerate().map(|(k, condition)| {
         let mut scalars = Vec::new();
@@ -454,7 +456,7 @@ pub(super) fn requirement(model: &Model) -> Option<TokenStream> {
     (!model.requirements.is_empty()).then_some(method)
 }
 
-/// The method that returns the points at which the definition acts.
+/// Returns the method that lists the points at which the definition acts.
 pub(super) fn points(d: &Definition) -> Option<TokenStream> {
     let points = d.params.iter().filter_map(|p| match p.kind {
         ParamKind::Point(_) => Some(&p.name),
@@ -469,7 +471,8 @@ pub(super) fn points(d: &Definition) -> Option<TokenStream> {
     })
 }
 
-/// The method that returns the axes of a joint in space; `None` if its first body has no axes.
+/// Returns the method that gives the axes of a joint in space; `None` if the first body of the
+/// joint has no axes.
 pub(super) fn axes(d: &Definition) -> Option<TokenStream> {
     let first = d.slots.first().filter(|_| d.space == Space::Space3)?;
     let axes = d
@@ -487,8 +490,9 @@ pub(super) fn axes(d: &Definition) -> Option<TokenStream> {
     })
 }
 
-/// The method that returns the axes of both bodies that a joint in space keeps parallel: the axes
-/// of one parameter, and the axes that follow it with `like`. `None` if there are no such axes.
+/// Returns the method that gives the axes of both bodies that a joint in space keeps parallel. The
+/// axes are the axes of one parameter, and the axes that follow it with `like`. The result is
+/// `None` if there are no such axes.
 pub(super) fn parallel_axes(d: &Definition) -> Option<TokenStream> {
     let [first, second] = d.slots.first_chunk()?;
     let of = |name: &Ident| d.params.iter().find(|p| p.name == *name);

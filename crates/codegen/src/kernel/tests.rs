@@ -1,4 +1,5 @@
-//! Tests single kernels: inputs come first, then shared parts with their names, then outputs.
+//! Tests single kernels. A kernel contains first the inputs, then the shared parts with their
+//! names, then the outputs.
 
 use quote::quote;
 use symbolic::Scalar;
@@ -48,7 +49,7 @@ fn numbers_of_the_type_f64_are_read_as_they_are() {
     );
 }
 
-/// Operations counted by hand: a rotated point needs 4 products and 2 sums.
+/// The operations are counted manually. A rotated point needs 4 products and 2 sums.
 #[test]
 fn operations_of_the_revolute() {
     let (model, _, k) = constraint(REVOLUTE);

@@ -1,5 +1,6 @@
-//! `bearings;`: the definition takes its bodies, and all points and axes except the last point,
-//! from two joints, each of which supports one wheel on a common carrier.
+//! `bearings;`: the definition takes its bodies from two joints, each of which supports one wheel
+//! on a common carrier. The definition also takes all points and axes except the last point from
+//! these joints.
 
 use super::tree::{Definition, Param, ParamKind};
 use crate::space::Space;
@@ -10,7 +11,7 @@ pub(super) const NEEDED: &str = "`bearings` stands after the parameters of a `sp
      two `Axes` in the carrier, for these bearings, and one in each wheel `like` them; a `Direction` in the carrier, \
      the line of action; and nothing else";
 
-/// Whether the definition has slots, points and axes for bearings.
+/// Returns whether the definition has slots, points and axes for bearings.
 pub(super) fn are_possible(d: &Definition) -> bool {
     let [first, second, carrier] = d.slots.as_slice() else {
         return false;

@@ -1,4 +1,4 @@
-//! The definition with its items, each of the form `word … ;`.
+//! The definition with its items. Each item has the form `word … ;`.
 
 use syn::ext::IdentExt;
 use syn::parse::ParseStream;
@@ -37,7 +37,7 @@ const CONSTRAINT: [&str; 9] = [
 ];
 const FORCE: [&str; 1] = ["force"];
 
-/// `plane Name(slot, …) { … }` or `space Name(slot, …) { … }`
+/// Parses `plane Name(slot, …) { … }` or `space Name(slot, …) { … }`.
 pub(super) fn definition(kind: Kind, input: ParseStream<'_>) -> syn::Result<Vec<Definition>> {
     let space = if input.parse::<Option<kw::plane>>()?.is_some() {
         Space::Plane
@@ -278,7 +278,7 @@ fn unknown_item(kind: Kind, word: &Ident, text: &str) -> syn::Error {
     syn::Error::new_spanned(word, message)
 }
 
-/// `name, …`
+/// Parses `name, …`.
 fn names(input: ParseStream<'_>) -> syn::Result<Vec<Ident>> {
     let list = Punctuated::<Ident, Token![,]>::parse_terminated_with(input, name)?;
     Ok(list.into_iter().collect())

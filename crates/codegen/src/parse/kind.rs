@@ -96,7 +96,7 @@ impl Parse for ParamKind {
     }
 }
 
-/// `[unit, …]` or `[Function<unit>, …]`
+/// Parses `[unit, …]` or `[Function<unit>, …]`.
 fn list(input: ParseStream<'_>) -> syn::Result<ParamKind> {
     let list;
     let bracket = bracketed!(list in input);
@@ -166,7 +166,7 @@ impl Parse for Initial {
     }
 }
 
-/// Lines of a doc comment.
+/// Returns the lines of a doc comment.
 pub(super) fn doc_lines(attributes: &[Attribute]) -> syn::Result<Vec<String>> {
     attributes
         .iter()

@@ -1,7 +1,7 @@
 //! Bounds on the input of the recursive parts of the pipeline. A definition that is extremely long
 //! or deep is rejected with an error, because a compiler that runs out of stack cannot report the
-//! reason. Keywords of Rust that are not words of this language, and paths, are rejected here for
-//! the same reason: the parser of Rust would follow them to any depth.
+//! reason. This module also rejects paths, and keywords of Rust that are not words of this
+//! language. The reason is the same: the parser of Rust would follow them to any depth.
 
 use proc_macro2::{Ident, Spacing, TokenStream, TokenTree};
 
@@ -14,7 +14,7 @@ const DEPTH: usize = 32;
 /// Maximum number of consecutive operators, as in `- - x`.
 const OPERATORS: usize = 4;
 
-/// Maximum number of forms of a definition, each of which is expanded.
+/// Maximum number of forms of a definition. Each form is expanded.
 pub(super) const FORMS: usize = 8;
 
 /// The keywords of Rust that are also words of this language.

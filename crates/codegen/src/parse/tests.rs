@@ -3,7 +3,7 @@
 
 use super::{Definition, Kept, Kind, ParamKind, definition};
 
-/// The definition, or its first form.
+/// Returns the definition, or its first form.
 fn parse(kind: Kind, text: &str) -> syn::Result<Definition> {
     let mut forms = definition(kind, text.parse()?)?;
     Ok(forms.remove(0))
@@ -16,7 +16,7 @@ fn error(kind: Kind, text: &str) -> String {
     }
 }
 
-/// A constraint that is complete except for the given items.
+/// Returns a constraint that is complete except for the given items.
 fn joint(items: &str) -> String {
     format!("plane A(i, j) {{ /// Doc.\n {items} }}")
 }
@@ -96,7 +96,7 @@ fn every_item_arrives() {
     assert!(d.variant.is_none());
 }
 
-/// Each form has a name, a description and an expression of its own.
+/// Each form has its own name, description and expression.
 #[test]
 fn a_definition_has_several_forms() {
     let text = joint(

@@ -8,9 +8,9 @@ use crate::space::Space;
 /// The kind of a definition.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kind {
-    /// `joint!`
+    /// A definition of `joint!`.
     Constraint,
-    /// `force!`
+    /// A definition of `force!`.
     Force,
 }
 
@@ -21,7 +21,8 @@ pub struct Definition {
     pub space: Space,
     /// Name of the definition.
     pub name: Ident,
-    /// Names of the body slots, which are the arguments of the definition that stand for bodies.
+    /// Names of the body slots. The body slots are the arguments of the definition that denote
+    /// bodies.
     pub slots: Vec<Ident>,
     /// Doc comment, one string for each line.
     pub doc: Vec<String>,
@@ -30,23 +31,24 @@ pub struct Definition {
     /// Whether a scene gives one point for each point parameter, instead of one common reference
     /// point.
     pub points_apart: bool,
-    /// Whether the bodies, points and axes, except the last point, are those of two joints that
-    /// support the first two bodies on the third.
+    /// Whether the bodies, the axes and all points except the last are taken from two joints. These
+    /// joints support the first two bodies on the third body.
     pub bearings: bool,
-    /// `let`, `initial` and `turns`, in the order of the text.
+    /// The bindings `let`, `initial` and `turns`, in the order of the text.
     pub bindings: Vec<Binding>,
     /// Conditions on the assembled start.
     pub requirements: Vec<(LitStr, Expr)>,
-    /// Names of the rows, of `phi` and then of `psi`.
+    /// Names of the rows: first of the rows of `phi`, then of the rows of `psi`.
     pub rows: Vec<Ident>,
-    /// Whether the only row of position level is the gap of a contact, positive where it is open.
+    /// Whether the only row of position level is the gap of a contact. The gap is positive where
+    /// the contact is open.
     pub has_gap: bool,
-    /// The rows of position level, whose names come first.
+    /// The rows of position level. The names of these rows come first in `rows`.
     pub phi: Option<Expr>,
     /// The rows of velocity level.
     pub psi: Option<Expr>,
-    /// The joint coordinates that drives may prescribe; `None` for a value stored at the start,
-    /// which a drive moves in the rows of the joint.
+    /// The joint coordinates that drives may prescribe. The expression is `None` for a value stored
+    /// at the start, which a drive moves in the rows of the joint.
     pub measures: Vec<(Ident, Option<Expr>)>,
     /// The reference point of the reaction.
     pub place: Option<Expr>,
@@ -58,11 +60,11 @@ pub struct Definition {
     pub forces: Vec<(Expr, Expr)>,
     /// Scene type, if it differs from the name.
     pub scene: Option<LitStr>,
-    /// The form of the definition, if it has several.
+    /// The form of this definition, if the definition has several forms.
     pub variant: Option<Variant>,
 }
 
-/// One of several forms of a definition, which have the same scene type.
+/// One of several forms of a definition. All forms have the same scene type.
 #[derive(Clone)]
 pub struct Variant {
     /// Key that selects the form in a scene.
@@ -82,7 +84,7 @@ pub struct Param {
     pub doc: Vec<String>,
     /// Kind of the value.
     pub kind: ParamKind,
-    /// Value at the assembled start if the parameter is not given.
+    /// Value at the assembled start that is used if the parameter is not given.
     pub default: Option<Expr>,
 }
 
@@ -93,8 +95,9 @@ pub enum ParamKind {
     Point(Ident),
     /// A direction in the frame of the body in a slot.
     Direction(Ident),
-    /// An axis in the frame of the body in a slot, with directions across it. Unless they are
-    /// given, they are the axes of another parameter, or the axes of the frame if `optional`.
+    /// An axis in the frame of the body in a slot, with directions across the axis. If the
+    /// directions are not given, the axes of another parameter are used, or the axes of the frame
+    /// if `optional`.
     Axes {
         /// The slot.
         slot: Ident,
@@ -105,7 +108,7 @@ pub enum ParamKind {
     },
     /// A line of the ground.
     GroundLine,
-    /// A plane of the ground; z = 0 unless it is given.
+    /// A plane of the ground; the default is z = 0.
     GroundPlane,
     /// A scalar value with its unit.
     Number(Ident),
@@ -117,14 +120,14 @@ pub enum ParamKind {
     Functions(Vec<Ident>),
 }
 
-/// `let`, `turns` or one entry of `initial`.
+/// A binding `let` or `turns`, or one entry of `initial`.
 #[derive(Clone)]
 pub struct Binding {
     /// Name of the binding.
     pub name: Ident,
     /// Value of the binding.
     pub value: Expr,
-    /// The kind of the stored value, for `initial` and `turns`; `None` for `let`.
+    /// The kind of the stored value for `initial` and `turns`; `None` for `let`.
     pub kept: Option<Kept>,
 }
 
@@ -135,12 +138,12 @@ pub enum Kept {
     Number(Ident),
     /// Components in the frame of the body in a slot.
     Vector(Ident),
-    /// An angle in space, stored by its cosine and sine: the name denotes the angle since the
+    /// An angle in space, stored by its cosine and sine. The name denotes the angle since the
     /// start, with its full revolutions.
     Turn,
 }
 
-/// A name that is also used as a name in the generated code.
+/// Parses a name that is also used as a name in the generated code.
 pub(super) fn name(input: ParseStream<'_>) -> syn::Result<Ident> {
     let name: Ident = input.parse()?;
     match name.to_string().strip_prefix("r#") {

@@ -12,7 +12,7 @@ use crate::names::{camel_case, kebab_case};
 
 /// The forms of a definition.
 pub(super) struct Forms {
-    /// Key in a scene, and name of the expression in which the forms differ.
+    /// Key in a scene. The key is also the name of the expression in which the forms differ.
     key: Ident,
     /// Number of bindings before the forms.
     place: usize,
@@ -48,7 +48,8 @@ impl Parse for Form {
 }
 
 impl Forms {
-    /// Parses the part after `variant`, which follows this number of bindings.
+    /// Parses the part after `variant`. The argument `place` is the number of bindings before the
+    /// forms.
     pub(super) fn parse(input: ParseStream<'_>, place: usize) -> syn::Result<Self> {
         let key = name(input)?;
         let list;
@@ -72,8 +73,8 @@ impl Forms {
         Ok(Self { key, place, all })
     }
 
-    /// Returns the definition of each form. The first form has the name of the definition; the
-    /// names of the others start with their values.
+    /// Returns the definition of each form. The first form has the name of the definition. The name
+    /// of every other form starts with its value.
     pub(super) fn of(self, d: &Definition) -> Vec<Definition> {
         let Self { key, place, all } = self;
         let of_form = |(k, form): (usize, Form)| {
