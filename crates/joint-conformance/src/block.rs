@@ -163,7 +163,7 @@ pub(crate) fn dot<T: Ring>(a: &[T], b: &[T]) -> T {
 }
 
 impl Block {
-    /// Returns the largest magnitude of an entry; NaN if an entry is NaN.
+    /// Returns the largest magnitude of an entry, or NaN if an entry is NaN.
     #[must_use]
     pub(crate) fn largest(&self) -> f64 {
         largest(self.entries.iter().copied())
@@ -175,8 +175,9 @@ impl Block {
         self.entries.iter().map(|e| e * e).sum::<f64>().sqrt()
     }
 
-    /// Returns row and column of the entry with the largest difference from the corresponding entry
-    /// of `other`; a NaN counts as the largest difference. Returns `None` for empty blocks.
+    /// Returns the row and the column of the entry with the largest difference from the
+    /// corresponding entry of `other`. A NaN counts as the largest difference. Returns `None` for
+    /// empty blocks.
     #[must_use]
     pub(crate) fn worst(&self, other: &Self) -> Option<(usize, usize)> {
         let difference = self.zip(other, |a, b| (a - b).abs());
@@ -189,8 +190,8 @@ impl Block {
         Some((at / self.columns, at % self.columns))
     }
 
-    /// Returns the largest difference between corresponding entries; NaN if a difference is NaN, or
-    /// if the shapes differ.
+    /// Returns the largest difference between corresponding entries. The difference is NaN if a
+    /// difference is NaN, or if the shapes differ.
     #[must_use]
     pub(crate) fn difference(&self, other: &Self) -> f64 {
         if (self.rows, self.columns) == (other.rows, other.columns) {
@@ -202,7 +203,7 @@ impl Block {
     }
 }
 
-/// Returns the largest magnitude; NaN if a value is NaN.
+/// Returns the largest magnitude, or NaN if a value is NaN.
 fn largest(values: impl Iterator<Item = f64>) -> f64 {
     values.fold(0.0, |m: f64, e| {
         if m.is_nan() || e.is_nan() {

@@ -130,8 +130,8 @@ impl Bodies for Plane {
     }
 }
 
-/// A rigid motion: a rotation by about 0.9 rad about an axis that is not a coordinate axis, and a
-/// translation.
+/// Returns a rigid motion: a translation, and a rotation by about 0.9 rad about an axis that is not
+/// a coordinate axis.
 fn carrier() -> space3::Pose {
     space3::Pose::new([0.7, -1.3, 0.4], [0.9, 0.2, -0.3, 0.25])
 }
@@ -185,8 +185,8 @@ impl Bodies for Space3 {
         Argument::Triple(numbers)
     }
 
-    /// Computes R·exp([ωτ]×) by Rodrigues' formula. ω is constant in the body frame, so the angular
-    /// acceleration is zero.
+    /// Computes R·exp([ωτ]×) by Rodrigues' formula. The angular velocity ω is constant in the body
+    /// frame, so the angular acceleration is zero.
     fn moved<D: Number>(x: &space3::Pose, v: &[f64], tau: D) -> space3::Pose<D> {
         let omega = [v[3], v[4], v[5]];
         let speed = omega.iter().map(|w| w * w).sum::<f64>().sqrt();
@@ -263,8 +263,8 @@ fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
     ]
 }
 
-/// Returns axes for a parameter: random directions for the axis and perpendicular to it, or
-/// directions along the axes of the frame.
+/// Returns axes for a parameter. The directions are random directions for the axis and
+/// perpendicular to the axis, or directions along the axes of the frame.
 pub(crate) fn axes(kind: Kind, random: &mut Random) -> Argument {
     if kind == Kind::RightAngles {
         let along = [[1.0, 0.0, 0.0], [0.0, -1.0, 0.0], [0.0, 0.0, 1.0]][random.below(3)];

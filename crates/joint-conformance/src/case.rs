@@ -1,5 +1,5 @@
 //! Cases with random parameters, poses and motions that agree with the specification of a
-//! definition. Some cases are ordinary, others have special properties.
+//! definition. Some cases are ordinary, and the other cases have special properties.
 
 use std::fmt;
 
@@ -13,8 +13,8 @@ pub const ORDINARY_CASES: usize = 1000;
 /// Number of cases with each special property in one check.
 pub const AWKWARD_CASES: usize = 25;
 /// Number of motions of one case. If a constraint has only one row, its right-hand side can be zero
-/// for one motion by chance, and the relative error is then meaningless. It is unlikely that the
-/// right-hand sides of several motions are all zero.
+/// for one motion by chance. The relative error of this motion is then meaningless. It is unlikely
+/// that the right-hand sides of several motions are all zero.
 pub(crate) const MOTIONS: usize = 4;
 
 /// Largest magnitude of the coordinates of ordinary poses.
@@ -24,11 +24,11 @@ const REACH: f64 = 2.0;
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Kind {
-    /// No special property: coordinates within ±2, angles within ±π.
+    /// The case has no special property. Coordinates are within ±2, and angles are within ±π.
     Ordinary,
     /// All frames have the same orientation.
     ParallelFrames,
-    /// Angles are 0, ±π/2 or ±π, in space also ±2π/3, and directions are along the axes of the
+    /// Angles are 0, ±π/2 or ±π, and in space also ±2π/3. Directions are along the axes of the
     /// frame.
     RightAngles,
     /// Angles differ from ±π by 1e-9.
@@ -64,7 +64,7 @@ impl Kind {
     ];
 }
 
-/// Velocities and accelerations, one for each velocity component of each body, and multipliers.
+/// Velocities and accelerations, one for each velocity component of each body, and the multipliers.
 #[derive(Clone, Debug)]
 pub(crate) struct Motion {
     pub(crate) v: Vec<f64>,
@@ -96,8 +96,8 @@ pub(crate) struct Case<S: Bodies> {
 }
 
 impl<S: Bodies> Case<S> {
-    /// Returns all cases for a definition with this number of rows. `turning` means that the
-    /// kernels use the cosine and sine of the last function of time; `turns` is the number of
+    /// Returns all cases for a definition with this number of rows. `turning` is `true` if the
+    /// kernels use the cosine and sine of the last function of time. `turns` is the number of
     /// unwrapped angles.
     pub(crate) fn all(
         seed: u64,
@@ -141,8 +141,9 @@ impl<S: Bodies> Case<S> {
         self.kind == Kind::Ordinary && self.index.is_multiple_of(4)
     }
 
-    /// Returns the case with another ordinary initial configuration. The region grows with every
-    /// attempt, because a wheel must be above a plane, which may be far away.
+    /// Returns the case with another ordinary initial configuration. The region of coordinates
+    /// grows with every attempt, because a wheel must be above a plane, and the plane may be far
+    /// away.
     pub(crate) fn with_another_start(&self, attempt: u64) -> Self {
         let mut random = Random(attempt ^ ((self.index as u64) << 32));
         let reach = REACH * (1.0 + attempt as f64 / 50.0);
@@ -152,8 +153,8 @@ impl<S: Bodies> Case<S> {
         }
     }
 
-    /// Returns the case after a rigid motion of all bodies, which changes poses, initial poses and
-    /// motions.
+    /// Returns the case after a rigid motion of all bodies. The rigid motion changes poses, initial
+    /// poses and motions.
     pub(crate) fn moved(&self) -> Self {
         let poses = |x: &[S::Pose<f64>]| x.iter().map(S::carried).collect();
         let twists = |v: &[f64]| -> Vec<f64> {
@@ -176,8 +177,8 @@ impl<S: Bodies> Case<S> {
         }
     }
 
-    /// Returns the largest coordinate of poses, initial poses and parameters, at least 1. A
-    /// relative error of ε in this coordinate changes Φ by ε times this coordinate times ‖C‖.
+    /// Returns the largest coordinate of poses, initial poses and parameters. The value is at least
+    /// 1. A relative error of ε in this coordinate changes Φ by ε times this coordinate times ‖C‖.
     pub(crate) fn size(&self) -> f64 {
         let poses = self.x.iter().chain(&self.start).flat_map(|p| {
             let ([x, y, z], angle) = S::origin(p);
@@ -303,8 +304,8 @@ fn motion<S: Bodies>(slots: usize, rows: usize, kind: Kind, random: &mut Random)
     }
 }
 
-/// The random-number generator SplitMix64 (Steele, Lea, Flood 2014), which is reproducible on every
-/// platform and needs no dependency.
+/// The random-number generator SplitMix64 (Steele, Lea, Flood 2014). The generator is reproducible
+/// on every platform and needs no dependency.
 pub struct Random(pub(crate) u64);
 
 impl Random {
@@ -316,7 +317,7 @@ impl Random {
         z ^ (z >> 31)
     }
 
-    /// Returns a number with uniform distribution in ±reach.
+    /// Returns a number that is uniformly distributed in ±`reach`.
     pub(crate) fn within(&mut self, reach: f64) -> f64 {
         let unit = (self.next() >> 11) as f64 / (1u64 << 53) as f64;
         reach * (2.0 * unit - 1.0)

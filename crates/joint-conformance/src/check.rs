@@ -56,11 +56,11 @@ pub(crate) fn check<S: Subject>(of: S, seed: u64) -> Result<(), Failure> {
 }
 
 /// A force law may have no value in at most this fraction of the cases. In a tenth of the ordinary
-/// cases, rotations exceed 3 rad, and the special cases contain rotations by half a revolution.
+/// cases, rotations exceed 3 rad. The special cases contain rotations by half a revolution.
 const MOST_UNDEFINED: f64 = 0.25;
 
-/// Number of initial configurations that are tried for one case before its requirements count as
-/// impossible.
+/// Number of initial configurations that are tried for one case. If no configuration satisfies the
+/// requirements, the requirements count as impossible.
 const STARTS: u64 = 100;
 
 /// Constructs the definition with the parameters of a case, at an initial configuration that
@@ -123,7 +123,7 @@ impl<S: Subject> Curve for Path<'_, S> {
 }
 
 impl<S: Subject> Check<'_, S> {
-    /// Returns a kernel at the state itself.
+    /// Returns a kernel at the state of the case.
     pub(crate) fn at(&self, kernel: S::Kernel, motion: &Motion) -> Block {
         let state = Along::Time.state(self.case, motion, 0.0);
         self.of.final_kernel(self.made, kernel, &state)
@@ -222,7 +222,7 @@ impl<S: Subject> Check<'_, S> {
     }
 
     /// Returns the change of Φ or Q for a relative error of 1 in the coordinates. The value is also
-    /// used for changes of C, because an entry of C has about the size of one length.
+    /// used for changes of C, because the size of an entry of C is about one length.
     pub(crate) fn scale(&self) -> f64 {
         let slope = self.at(S::SLOPE, &self.case.motions[0]);
         slope.largest().max(1.0) * self.case.size()
@@ -294,7 +294,7 @@ pub(crate) fn n_dof<S: Subject>() -> usize {
     <S::Space as Space>::N_DOF
 }
 
-/// Returns a description of an entry of a property; blocks of several motions are joined column by
+/// Returns a description of an entry of a property. Blocks of several motions are joined column by
 /// column.
 pub(crate) fn entry<S: Subject>(of: S, property: Property, row: usize, column: usize) -> String {
     let n = of.columns();

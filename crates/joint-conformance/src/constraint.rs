@@ -48,16 +48,16 @@ impl<S: Bodies> OfConstraint<S> {
 /// The kernels of a constraint, and quantities computed from them.
 #[derive(Clone, Copy)]
 pub(crate) enum Kernel {
-    /// Φ of the holonomic rows.
+    /// The values Φ of the holonomic rows.
     Phi,
     C,
     B,
-    /// C·v − b
+    /// The value C·v − b.
     Velocity,
     Gamma,
-    /// Cᵀλ
+    /// The value Cᵀλ.
     Force,
-    /// C·a − Γ
+    /// The value C·a − Γ.
     Residual,
     Wrench,
     Component,
@@ -311,7 +311,7 @@ impl<S: Bodies> Subject for OfConstraint<S> {
     }
 }
 
-/// Returns the constant and the varying entries of C, in the order of the pattern.
+/// Returns the constant entries and the varying entries of C, in the order of the pattern.
 fn c_entries<S: Bodies, D: KernelNumber>(
     k: &dyn Element<D, S>,
     x: &[S::Pose<D>],

@@ -1,5 +1,5 @@
-//! Derivatives along a curve, by two methods that are independent of the kernels: dual numbers, and
-//! central differences with Richardson extrapolation.
+//! Derivatives along a curve, computed by two methods that are independent of the kernels. The
+//! methods are dual numbers, and central differences with Richardson extrapolation.
 
 use num_dual::Dual2_64;
 
@@ -15,13 +15,13 @@ pub(crate) trait Curve {
 
 /// A method of differentiation.
 pub(crate) trait Differentiate {
-    /// `d/dτ` at 0.
+    /// Returns `d/dτ` at τ = 0.
     fn first(curve: &impl Curve) -> Block;
-    /// `d²/dτ²` at 0.
+    /// Returns `d²/dτ²` at τ = 0.
     fn second(curve: &impl Curve) -> Block;
 }
 
-/// Differentiation with dual numbers, which is exact up to rounding errors.
+/// Differentiation with dual numbers. The result is exact up to rounding errors.
 pub(crate) struct DualNumbers;
 
 impl Differentiate for DualNumbers {
@@ -36,20 +36,20 @@ impl Differentiate for DualNumbers {
     }
 }
 
-/// Central differences with steps that are halved, extrapolated to step zero. The error of a
-/// central difference is a series in h², so each extrapolation removes one term of the series. From
-/// all extrapolated values, the result is the one with the smallest difference from the two values
-/// from which it was computed.
+/// Differentiation with central differences. The steps are halved, and the results are extrapolated
+/// to step zero. The error of a central difference is a series in h², so each extrapolation removes
+/// one term of the series. The result is the extrapolated value with the smallest difference from
+/// the two values from which it was computed.
 pub(crate) struct Differences;
 
-/// The exponent of the largest step, a power of two; this step is about a tenth of the sizes in
-/// ordinary cases.
+/// The exponent of the largest step, which is a power of two. This step is about a tenth of the
+/// sizes in ordinary cases.
 const LARGEST: i32 = -3;
-/// Number of steps for a first derivative. The smallest step is 2⁻¹², because forces near a length
-/// of zero need small steps.
+/// Number of steps for a first derivative. The smallest step is 2⁻¹². Small steps are needed for
+/// forces near a length of zero.
 const FIRST_STEPS: i32 = 10;
-/// Number of steps for a second derivative. The smallest step is 2⁻⁷; the rounding error is
-/// proportional to 1/h² and at most 1e-11.
+/// Number of steps for a second derivative. The smallest step is 2⁻⁷. The rounding error is
+/// proportional to 1/h² and is at most 1e-11.
 const SECOND_STEPS: i32 = 5;
 /// Number of extrapolations for each step. With more extrapolations, the rounding error grows
 /// faster than the truncation error decreases.
@@ -107,7 +107,7 @@ fn extrapolate(steps: i32, difference: impl Fn(f64) -> Block) -> Block {
 mod tests {
     use super::*;
 
-    /// `sin(1 + τ)`
+    /// The curve `sin(1 + τ)`.
     struct Sine;
     impl Curve for Sine {
         fn at<D: KernelNumber>(&self, tau: D) -> Block<D> {

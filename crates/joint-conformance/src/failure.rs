@@ -1,5 +1,5 @@
-//! The report of a failed check: the definition, the property, the entry, both values, and the case
-//! with which the failure can be reproduced.
+//! The report of a failed check. The report contains the definition, the property, the entry, both
+//! values, and the case with which the failure can be reproduced.
 
 use std::fmt;
 
@@ -17,8 +17,8 @@ pub enum Property {
     /// The entries of a pattern are within the block, occur only once, and are nonzero in some
     /// case.
     Pattern,
-    /// `c_constant` writes the constant entries and `c` the others; `b` writes only if the
-    /// constraint depends on time.
+    /// `c_constant` writes the constant entries, and `c` writes the other entries. `b` writes only
+    /// if the constraint depends on time.
     Writes,
     /// `C = ∂Φ/∂x` along the velocity components.
     C,
@@ -52,13 +52,13 @@ pub enum Property {
     Wrench,
     /// The force law has a value at most poses.
     Defined,
-    /// The reference point is fixed in the first body, or, if joints support wheels on a carrier,
-    /// in the carrier.
+    /// The reference point is fixed in the first body. If joints support wheels on a carrier, the
+    /// reference point is fixed in the carrier.
     Place,
     /// The named component is the force along a unit vector, or a torque.
     Component,
-    /// The component of a drive is the load that does work: its product with the rate of the motion
-    /// is b.
+    /// The component of a drive is the load that does work. The product of this load and the rate
+    /// of the motion is b.
     Power,
     /// Forces on the bodies have neither a resultant force nor a resultant torque.
     Balance,
@@ -115,15 +115,15 @@ impl fmt::Display for Property {
     }
 }
 
-/// The method that gives the expected value.
+/// The method that computes the expected value.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Reference {
-    /// A derivative computed with dual numbers.
+    /// The derivative is computed with dual numbers.
     DualNumbers,
-    /// A derivative computed with central differences and extrapolation.
+    /// The derivative is computed with central differences and extrapolation.
     Differences,
-    /// An identity between kernels, or a statement of the specification.
+    /// The reference is an identity between kernels, or a statement of the specification.
     Identity,
 }
 
@@ -134,7 +134,7 @@ pub struct Failure {
     pub definition: &'static str,
     /// The property.
     pub property: Property,
-    /// The method that gives the expected value.
+    /// The method that computes the expected value.
     pub reference: Reference,
     /// Description of the entry with the largest error.
     pub entry: String,
@@ -190,13 +190,13 @@ impl fmt::Display for Failure {
 impl std::error::Error for Failure {}
 
 /// Tolerance for comparisons with dual numbers and for identities. Both sides have the rounding
-/// error of about ten operations, which is about 1e-15; for coordinates or angles of up to 1e3, it
-/// is up to 1e3 times larger.
+/// error of about ten operations, which is about 1e-15. For coordinates or angles of up to 1e3,
+/// this error is up to 1e3 times larger.
 pub const DUAL_TOLERANCE: f64 = 1e-12;
 
-/// Tolerance for comparisons with finite differences. Even the best step loses about a third of the
-/// digits of a first derivative; extrapolation recovers most of them. The tolerance is determined
-/// by second derivatives.
+/// Tolerance for comparisons with finite differences. Even with the best step, about a third of the
+/// digits of a first derivative are lost. Extrapolation recovers most of these digits. The
+/// tolerance is determined by second derivatives.
 pub const DIFFERENCE_TOLERANCE: f64 = 1e-9;
 
 /// A method that computes expected values, with its accuracy.
@@ -204,13 +204,14 @@ pub const DIFFERENCE_TOLERANCE: f64 = 1e-9;
 pub(crate) struct Oracle {
     pub(crate) reference: Reference,
     pub(crate) tolerance: f64,
-    /// Lower limit of the size to which a difference is relative: the size of the terms before
-    /// cancellation.
+    /// Lower limit of the size to which a difference is relative. This limit is the size of the
+    /// terms before cancellation.
     pub(crate) floor: f64,
 }
 
 impl Oracle {
-    /// If a block is zero, the derivatives in all dual numbers are zero, too, unless terms cancel.
+    /// If a block is zero, the derivatives in all dual numbers are zero, too, unless terms cancel
+    /// each other.
     pub(crate) const DUAL_NUMBERS: Self = Self {
         reference: Reference::DualNumbers,
         tolerance: DUAL_TOLERANCE,
@@ -242,8 +243,8 @@ impl Oracle {
     }
 }
 
-/// The claim that two blocks are equal up to the tolerance, relative to their largest entry or to
-/// the floor of the method.
+/// The claim that two blocks are equal up to the tolerance. The difference is relative to the
+/// largest entry of the blocks, or to the floor of the method.
 pub(crate) struct Claim<'a> {
     pub(crate) property: Property,
     pub(crate) oracle: Oracle,
@@ -286,7 +287,7 @@ impl Claim<'_> {
     }
 }
 
-/// Returns the failure of a check that compares two values and not two blocks of entries: `found`
+/// Returns the failure of a check that compares two values and not two blocks of entries. `found`
 /// is the computed value, and `expected` is the required value.
 pub(crate) fn fact(
     definition: &'static str,

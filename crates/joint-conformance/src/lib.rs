@@ -3,10 +3,10 @@
 //! # What is compared
 //!
 //! A definition is tested by its type alone. Parameters, poses, motions, multipliers and functions
-//! of time are random numbers that agree with the specification and can be reproduced from a seed.
-//! There are [`ORDINARY_CASES`] ordinary cases, and [`AWKWARD_CASES`] of each special [`Kind`]. The
-//! largest difference in a block of kernel results must be small relative to the largest entry of
-//! the block.
+//! of time are random numbers. These numbers agree with the specification and can be reproduced
+//! from a seed. There are [`ORDINARY_CASES`] ordinary cases, and [`AWKWARD_CASES`] cases of each
+//! special [`Kind`]. The largest difference in a block of kernel results must be small relative to
+//! the largest entry of the block.
 //!
 //! | block | reference, by dual numbers (1e-12) and, in every fourth ordinary case, by differences (1e-9) |
 //! | --- | --- |
@@ -21,8 +21,8 @@
 //! | start | rows that store an initial value are zero at the initial configuration |
 //! | velocity terms of forces | never add energy |
 //!
-//! Balance and norms are tested for definitions that relate bodies to each other, that is,
-//! definitions with two or more bodies and without a line of the ground. For constraints, the
+//! Balance and norms are tested for definitions that relate bodies to each other. Such definitions
+//! are definitions with two or more bodies and without a line of the ground. For constraints, the
 //! balance is tested at position level, because velocities are relative to the ground. For a joint
 //! to the ground, the ground is one of these bodies.
 
@@ -93,8 +93,8 @@ struct Checks(Vec<Box<Check>>);
 type Check = dyn Fn(u64) -> Result<(), Failure> + Sync;
 
 impl Checks {
-    /// Runs all checks up to the first failure; as many run at the same time as there are
-    /// processors.
+    /// Runs all checks up to the first failure. The number of checks that run at the same time is
+    /// the number of processors.
     fn run(&self, seed: u64) -> Result<(), Failure> {
         let next = AtomicUsize::new(0);
         let (failed, failures) = (AtomicBool::new(false), Mutex::new(BTreeMap::new()));

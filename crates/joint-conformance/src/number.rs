@@ -1,5 +1,5 @@
-//! Number types for the expected values: `f64` for differences, dual numbers for exact derivatives,
-//! and numbers that record whether the value of a force law is undefined.
+//! Number types for the expected values: `f64` for differences, and dual numbers for exact
+//! derivatives. Another type records whether the value of a force law is undefined.
 
 use std::cell::RefCell;
 use std::ops::{Add, Div, Mul, Neg, Sub};
@@ -7,7 +7,7 @@ use std::ops::{Add, Div, Mul, Neg, Sub};
 use joints::{Real, Scalar};
 use num_dual::{Dual2_64, DualNum};
 
-/// A number type for poses, which has cosine and sine.
+/// A number type for poses. The type provides cosine and sine.
 pub trait Number: Real {
     /// Returns the sine and the cosine.
     fn sin_cos(self) -> (Self, Self);
@@ -29,8 +29,8 @@ thread_local! {
     static SLOPES: RefCell<Vec<f64>> = const { RefCell::new(Vec::new()) };
 }
 
-/// Returns the result of `ask` if the values stored by constraints have these derivatives, by their
-/// indices; all other values are constant.
+/// Returns the result of `ask` if the values stored by constraints have these derivatives. The
+/// derivatives are in the order of the indices of the values. All other values are constant.
 pub(crate) fn with_slopes<R>(slopes: Vec<f64>, ask: impl FnOnce() -> R) -> R {
     SLOPES.set(slopes);
     let answer = ask();
@@ -127,9 +127,9 @@ impl Neg for Dual {
     }
 }
 
-/// A number that records whether it was computed from a rotation vector near half a revolution, for
-/// which a force law has no value. A result that is NaN for another reason, for example 0/0, is
-/// still an error.
+/// A number that records whether it was computed from a rotation vector near half a revolution. A
+/// force law has no value for such a rotation vector. A result that is NaN for another reason, for
+/// example 0/0, is still an error.
 #[derive(Clone, Copy)]
 pub(crate) struct Traced {
     value: f64,

@@ -3,11 +3,11 @@
 use crate::block::Block;
 use crate::failure::{Failure, Property, fact};
 
-/// An entry counts as nonzero if it exceeds this fraction of the largest entry of its block; the
-/// rounding error of a sum that is identically zero is smaller.
+/// An entry counts as nonzero if it exceeds this fraction of the largest entry of its block. The
+/// rounding error of a sum that is identically zero is smaller than this fraction.
 const ALIVE: f64 = 1e-10;
 
-/// A pattern, and the entries of it that were nonzero in some case.
+/// A pattern, and its entries that were nonzero in some case.
 pub(crate) struct Pattern {
     block: &'static str,
     entries: Vec<[usize; 2]>,
@@ -18,7 +18,7 @@ impl Pattern {
     /// Creates the pattern of a block of this shape.
     ///
     /// # Errors
-    /// Returns an error if an entry is outside the block, or occurs twice.
+    /// Returns an error if an entry is outside the block or occurs twice.
     pub(crate) fn new(
         definition: &'static str,
         block: &'static str,

@@ -1,20 +1,21 @@
-//! The arguments of a kernel, and the arguments that vary when a derivative is computed: one
-//! velocity component of one body, the time, or everything along the motion.
+//! The arguments of a kernel, and the arguments that vary when a derivative is computed. The
+//! varying arguments are one velocity component of one body, the time, or everything along the
+//! motion.
 
 use crate::bodies::Bodies;
 use crate::case::{Case, Motion};
 use crate::number::Number;
 
-/// A derivative is computed along this curve through a state.
+/// A curve through a state along which a derivative is computed.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Along {
     /// The pose varies along one column of the block; all other arguments are constant.
     Pose(usize),
     /// The twist varies along one column of the block; all other arguments are constant.
     Twist(usize),
-    /// The time varies, and with it the functions of time; bodies do not move.
+    /// The time varies, and the functions of time vary with it. The bodies do not move.
     Time,
-    /// The bodies move by `x + τv` with constant v, and the time varies, too; terms with
+    /// The bodies move by `x + τv` with constant v, and the time varies, too. Terms with
     /// accelerations are omitted.
     Motion,
 }

@@ -11,14 +11,15 @@ use crate::kernels::KernelNumber;
 use crate::pattern::Pattern;
 use crate::state::State;
 
-/// A definition in the form that the harness needs: its specification and its constructor. It is a
-/// value and not a type, so that the harness is compiled only once for all definitions of a space.
+/// A definition in the form that the harness needs: its specification and its constructor. A
+/// subject is a value and not a type, so that the harness is compiled only once for all definitions
+/// of a space.
 pub(crate) trait Subject: Copy {
     /// The space of its bodies.
     type Space: Bodies;
     /// The constructed element.
     type Made;
-    /// The kernels, and quantities computed from them.
+    /// A kernel, or a quantity that is computed from kernels.
     type Kernel: Copy + 'static;
     /// Properties that must be observed in at least one case.
     type Seen: Default;
@@ -31,7 +32,7 @@ pub(crate) trait Subject: Copy {
     /// Returns the part of the specification that constraints and forces have in common.
     fn common(self) -> &'static Spec;
 
-    /// Returns the rows, each of which has a multiplier; forces have no rows.
+    /// Returns the rows. Each row has a multiplier, and forces have no rows.
     fn rows(self) -> &'static [Row] {
         &[]
     }
@@ -59,7 +60,7 @@ pub(crate) trait Subject: Copy {
     fn definition(made: &mut Self::Made) -> &mut dyn Definition<Self::Space>;
 
     /// Returns a kernel as a dense block. Entries that the kernel does not write are NaN, so that
-    /// every comparison detects them.
+    /// every comparison detects these entries.
     fn kernel<D: KernelNumber>(
         self,
         made: &Self::Made,
@@ -67,8 +68,8 @@ pub(crate) trait Subject: Copy {
         at: &State<Self::Space, D>,
     ) -> Block<D>;
 
-    /// Returns a kernel for `f64`. Kernels that are not differentiated are included, so that they
-    /// need to be compiled only for this type.
+    /// Returns a kernel for `f64`. This function also returns kernels that are not differentiated,
+    /// so that these kernels need to be compiled only for this type.
     fn final_kernel(
         self,
         made: &Self::Made,
@@ -81,7 +82,7 @@ pub(crate) trait Subject: Copy {
     /// Returns the kernels with a sparsity pattern.
     ///
     /// # Errors
-    /// Returns an error if a pattern has an entry outside of its block, or the same entry twice.
+    /// Returns an error if a pattern has an entry outside its block, or the same entry twice.
     fn patterns(self) -> Result<Vec<(Self::Kernel, Pattern)>, Failure>;
 
     /// Returns the kernels that are derivatives of other kernels.
@@ -103,7 +104,7 @@ pub(crate) trait Subject: Copy {
     /// Records the properties observed in one case.
     fn see(_check: &Check<'_, Self>, _seen: &mut Self::Seen) {}
 
-    /// Checks whether the specification agrees with the observations in all cases.
+    /// Checks that the specification agrees with the observations in all cases.
     fn facts(self, seen: &Self::Seen) -> Result<(), Failure>;
 }
 
@@ -122,7 +123,7 @@ pub(crate) struct Derivative<K> {
 }
 
 impl<K> Derivative<K> {
-    /// States that `kernel = sign · d of / d by` in the rows of `of`; if the statement is false,
+    /// States that `kernel = sign · d of / d by` in the rows of `of`. If the statement is false,
     /// the definition violates the property.
     pub(crate) const fn new(property: Property, kernel: K, sign: f64, of: K, by: By) -> Self {
         Self {
@@ -146,7 +147,7 @@ pub(crate) enum By {
     Time,
     /// The parameter τ of the motion `x + τv`, `t + τ`.
     Motion,
-    /// The parameter τ of the motion, twice (second derivative).
+    /// The parameter τ of the motion, for a second derivative.
     MotionTwice,
 }
 
@@ -157,7 +158,7 @@ pub(crate) fn dense<T: Ring>(n: usize, write: impl FnOnce(&mut [T])) -> Block<T>
     Block::column(out)
 }
 
-/// Returns the block that a kernel writes in the order of its pattern; other entries are zero.
+/// Returns the block that a kernel writes in the order of its pattern. All other entries are zero.
 pub(crate) fn sparse<T: Ring>(
     [rows, columns]: [usize; 2],
     pattern: &[[usize; 2]],

@@ -1,6 +1,7 @@
 //! Tests of the values that a constraint stores: reading, setting, and derivatives with respect to
-//! them. The expected derivatives are differences through `set_data`, and dual numbers through the
-//! kernels; the latter use the derivatives of the stored values that the constraint returns.
+//! these values. The expected derivatives are differences through `set_data`, and dual numbers
+//! through the kernels. The dual numbers use the derivatives of the stored values that the
+//! constraint returns.
 
 use joints::spec::{DatumShape, Unit};
 
@@ -15,7 +16,7 @@ use crate::number::{Dual, with_slopes};
 use crate::state::Along;
 use crate::subject::Subject;
 
-/// This number is added to each stored value in turn; no case contains it by chance.
+/// This number is added to each stored value in turn. No case contains this number by chance.
 const ANOTHER: f64 = 0.0625;
 
 /// Each component of a unit vector has the rounding error of a quotient.
@@ -96,7 +97,8 @@ impl<S: Bodies> Check<'_, OfConstraint<S>> {
         }
     }
 
-    /// Checks that `set_data` restores the values that `data` returns, and changes nothing else.
+    /// Checks that `set_data` restores the values that `data` returns and does not change anything
+    /// else.
     fn data_put_back(&self, numbers: &[f64]) -> Result<(), Failure> {
         let same = self.with_data(numbers, bits);
         let changed = bits(self) != same;
@@ -124,8 +126,8 @@ impl<S: Bodies> Check<'_, OfConstraint<S>> {
     }
 
     /// Computes the derivatives of `λᵀ·kernel` with respect to all stored values by differences.
-    /// The step of a small value is a fraction of the value. A kernel that divides by the value has
-    /// a pole at zero, which must not be inside a step.
+    /// The step of a small value is a fraction of the value. The reason is a kernel that divides by
+    /// the value: it has a pole at zero, which must not be inside a step.
     fn by_data(&self, kernel: Kernel, numbers: &[f64], motion: &Motion) -> Block {
         let slope = |number: usize| {
             let unit = match numbers[number].abs() {

@@ -13,10 +13,10 @@ use crate::failure::{DUAL_TOLERANCE, Failure, Property};
 use crate::state::{Along, State};
 use crate::subject::{By, Subject};
 
-/// Time step for differences of cosines and sines; rounding and curvature each change a rate of
+/// Time step for differences of cosines and sines. Rounding and curvature each change a rate of
 /// about 1 by less than 1e-8.
 const STEP: f64 = 1e-5;
-/// Largest error of such a rate.
+/// Largest permitted error of such a rate.
 const OF_DIFFERENCE: f64 = 1e-7;
 
 impl<S: Bodies> Check<'_, OfConstraint<S>> {
@@ -24,9 +24,10 @@ impl<S: Bodies> Check<'_, OfConstraint<S>> {
         self.at(kernel, &self.case.motions[0])
     }
 
-    /// Returns the reference point. It is `None` if a body that should touch a plane is parallel to
-    /// the plane. In this case there is no contact point, and the reference point contains a
-    /// division by zero. In all other cases, NaN is compared like a value, and the check fails.
+    /// Returns the reference point. The result is `None` if a body that should touch a plane is
+    /// parallel to the plane. In this case there is no contact point, and the reference point
+    /// contains a division by zero. In all other cases, NaN is compared like a value, and the check
+    /// fails.
     fn place_of_reaction(&self) -> Option<Block> {
         let place = self.first(Kernel::Place);
         let nowhere = place.entries().iter().any(|p| p.is_nan());
@@ -87,9 +88,10 @@ impl<S: Bodies> Check<'_, OfConstraint<S>> {
         self.identity(Property::Component, &found, &expected)
     }
 
-    /// Checks that the reference point is fixed in the first body, or, if joints support wheels on
-    /// a carrier, in the carrier. If a body touches a plane of the ground, a rotation changes its
-    /// contact point; in this case only translations are checked.
+    /// Checks that the reference point is fixed in the first body. If joints support wheels on a
+    /// carrier, it checks that the reference point is fixed in the carrier. If a body touches a
+    /// plane of the ground, a rotation changes its contact point; in this case only translations
+    /// are checked.
     pub(super) fn place(&self) -> Result<(), Failure> {
         let Some(place) = self.place_of_reaction() else {
             return Ok(());
@@ -142,8 +144,8 @@ impl<S: Bodies> Check<'_, OfConstraint<S>> {
         Ok(())
     }
 
-    /// Checks the programs, which are recorded from the kernels of one constraint and run for all
-    /// constraints of its kind.
+    /// Checks the programs. The programs are recorded from the kernels of one constraint and run
+    /// for all constraints of its kind.
     pub(super) fn programs(&self) -> Result<(), Failure> {
         let (plain, spec) = (self.made.plain(), self.of.spec);
         let at = Along::Time.state::<S, f64>(self.case, &self.case.motions[0], 0.0);
@@ -206,8 +208,8 @@ impl<S: Bodies> Check<'_, OfConstraint<S>> {
         }
     }
 
-    /// Checks the balance of the rows only if Φ = 0. Otherwise, the distance between two points
-    /// that should coincide is a lever arm for the two forces.
+    /// Checks the balance of the rows only if Φ = 0. If Φ is not zero, the distance between two
+    /// points that should coincide is a lever arm for the two forces.
     pub(super) fn rows_balance(&self) -> Result<(), Failure> {
         let ordinary = self.case.kind == Kind::Ordinary;
         if self.of.spec.holonomic == 0 || !(ordinary && is_internal(self.of)) {
@@ -230,8 +232,8 @@ impl<S: Bodies> Check<'_, OfConstraint<S>> {
         Check { case, ..*self }
     }
 
-    /// Returns the case with its poses changed so that Φ is zero or nearly zero. The corrections
-    /// use one row of C after another, so that no rank is needed.
+    /// Returns the case with changed poses, at which Φ is zero or nearly zero. The corrections use
+    /// one row of C after another, so that no rank is needed.
     fn closed(&self) -> Case<S> {
         const SWEEPS: usize = 100;
         let mut case = self.case.clone();
