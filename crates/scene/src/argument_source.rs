@@ -12,7 +12,7 @@ use crate::space::SceneSpace;
 
 /// Source of the points and directions of an element.
 pub(crate) enum ArgumentSource<'a> {
-    /// All points and directions are in the table of the element.
+    /// The table of the element contains all points and directions.
     Text,
     /// Points and directions are taken from two markers.
     Markers(JointMarkers<'a>),
@@ -30,7 +30,7 @@ impl ArgumentSource<'_> {
                 shape,
                 Shape::Point { .. } | Shape::Direction { .. } | Shape::Axes { .. }
             ),
-            // The last point is the pitch point.
+            // The last point is the pitch point, which the table contains.
             (Self::Bearings(_), Shape::Point { .. }) => {
                 let later = &spec.parameters[parameter + 1..];
                 later.iter().any(|p| matches!(p.shape, Shape::Point { .. }))
@@ -39,8 +39,8 @@ impl ArgumentSource<'_> {
         }
     }
 
-    /// Returns the argument of such a parameter, if it could be read, and the position of the
-    /// markers or joints in the text. Returns `None` if the argument is in the table.
+    /// Returns the argument that markers or joints define, if it could be read, and the position of
+    /// the markers or joints in the text. Returns `None` if the table contains the argument.
     pub(crate) fn argument<S: SceneSpace>(
         &self,
         spec: &Spec,

@@ -134,8 +134,8 @@ impl Arguments {
         })
     }
 
-    /// Returns axes that are parallel to the axes of another parameter, and the position of that
-    /// parameter in the text.
+    /// Returns axes that are parallel to the axes of another parameter, and the position of the
+    /// other parameter in the text.
     fn like<S: SceneSpace>(
         &self,
         spec: &Spec,

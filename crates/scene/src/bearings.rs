@@ -47,15 +47,15 @@ pub(crate) const CARRIER: usize = 2;
 pub(crate) struct Bearings {
     /// Position of the two joint names in the text.
     pub(crate) span: Range<usize>,
-    /// Two wheels on one carrier; `None` if there are no such wheels, which has been reported.
+    /// Two wheels on one carrier. `None` if there are no such wheels; this has been reported.
     wheels: Option<Box<Wheels>>,
 }
 
 /// Two wheels and their carrier.
 struct Wheels {
-    /// Each wheel, with point and axis of its bearing.
+    /// The point and the axis of the bearing on each wheel.
     wheels: [Seat; 2],
-    /// The carrier, with point and axis of each wheel.
+    /// The points and axes of both bearings on the carrier.
     carrier: [Seat; 2],
 }
 
@@ -112,8 +112,8 @@ impl Bearings {
         })
     }
 
-    /// Returns the line of action and its position in the text. The line is given in the text and
-    /// read with `direction`, or it is computed from the pressure angle.
+    /// Returns the line of action and its position in the text. If the text contains the line,
+    /// `direction` reads it. Otherwise, the line is computed from the pressure angle.
     pub(crate) fn line(
         &self,
         table: &mut Table,
@@ -184,8 +184,8 @@ fn xyz(argument: &Argument) -> Option<[f64; 3]> {
 }
 
 impl Wheels {
-    /// Finds the two wheels and the body on which both turn. If there are no such wheels, the
-    /// function reports this and returns `None`.
+    /// Finds the two wheels and the body on which both wheels turn. If there are no such wheels,
+    /// the function reports this and returns `None`.
     fn of<'j, 'r, S: SceneSpace>(
         field: &Field,
         named: [&'j JointRead<'r, S>; 2],
@@ -221,7 +221,7 @@ impl Wheels {
         });
         match found {
             Ok(wheels) => Some(wheels),
-            // The joint that is missing may be one that could not be read.
+            // A joint that could not be read may be the missing joint.
             Err(_) if train.is_incomplete() => None,
             Err(refusal) => {
                 report(refusal);
@@ -235,8 +235,8 @@ impl Wheels {
         self.carrier.each_ref().map(Seat::axis)
     }
 
-    /// Returns the wheel for which a force along this line through the pitch point has no lever arm
-    /// about the axis of the wheel.
+    /// Returns the name of a wheel about whose axis a force along this line through the pitch point
+    /// has no moment.
     fn missed_by(&self, line: &Argument, pitch: &Argument) -> Option<&'static str> {
         let (line, pitch) = (xyz(line)?, xyz(pitch)?);
         let mut axes = ["first", "second"].into_iter().zip(self.axes());

@@ -20,7 +20,7 @@ use crate::table::Table;
 /// The key of the markers of both bodies.
 pub(crate) const MARKERS: &str = "markers";
 
-/// The expected value of the key.
+/// The expected value of the key `markers`.
 const EXPECTED: &str = "two markers [first, second]";
 
 /// Returns whether a definition connects two bodies at points or along axes, so that markers can
@@ -70,7 +70,8 @@ pub(crate) struct JointMarkers<'b> {
 }
 
 impl<'b> JointMarkers<'b> {
-    /// Reads `markers` of a definition with these bodies; `None` if the key is not in the text.
+    /// Reads `markers` of a definition with these bodies. Returns `None` if the text does not
+    /// contain the key.
     pub(crate) fn read<S: SceneSpace>(
         table: &mut Table,
         spec: &'static Spec,
@@ -95,8 +96,8 @@ impl<'b> JointMarkers<'b> {
         Some(between)
     }
 
-    /// Returns the argument of a point, or of a direction: z of the marker of its body for a
-    /// direction along the axis, x for the direction `cross`.
+    /// Returns the argument of a point or a direction. A direction along the axis is the z
+    /// direction of the marker; the direction `cross` is the x direction of the marker.
     pub(crate) fn argument<S: SceneSpace>(
         &self,
         parameter: &Parameter,

@@ -14,7 +14,7 @@ use crate::table::Table;
 /// The bodies of the text.
 pub(crate) struct Bodies<S: SceneSpace> {
     pub(crate) list: Vec<S::Body>,
-    /// Initial poses of the bodies that do not start at their pose in the scene.
+    /// Initial poses of bodies whose initial pose differs from the described pose.
     pub(crate) poses: Vec<StartPose>,
     pub(crate) names: BodyNames,
     /// Markers by name.
@@ -33,7 +33,7 @@ impl<S: SceneSpace> Default for Bodies<S> {
 }
 
 impl<S: SceneSpace> Bodies<S> {
-    /// Reads one body. Values that cannot be read are replaced by zero; they have been reported.
+    /// Reads one body. Values that cannot be read are reported and replaced by zero.
     pub(crate) fn read(&mut self, mut table: Table, name: &str)
     where
         S: SceneBody,
@@ -78,8 +78,8 @@ impl<S: SceneSpace> Bodies<S> {
         }
     }
 
-    /// Ground coordinates of a point at the start, before the start is corrected. The point is
-    /// relative to the centre of mass of its body.
+    /// Returns the ground coordinates of a point at the start, before the start is corrected. The
+    /// argument is relative to the centre of mass of the body.
     pub(crate) fn at_start(&self, body: BodyRef, point: S::Vector<f64>) -> S::Vector<f64> {
         let described = body.moving().and_then(|at| Some((at, self.list.get(at)?)));
         let Some((at, body)) = described else {
@@ -126,7 +126,7 @@ impl<S: SceneSpace> Bodies<S> {
     }
 }
 
-/// The keys of both spaces, each with the name of its space.
+/// Returns the keys of both spaces, each with the name of its space.
 fn keys() -> impl Iterator<Item = (&'static str, &'static str)> {
     let plane = Plane::BODY_KEYS.iter().map(|key| (key.name, Plane::NAME));
     let space = Space3::BODY_KEYS.iter().map(|key| (key.name, Space3::NAME));

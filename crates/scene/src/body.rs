@@ -27,11 +27,12 @@ pub(crate) trait SceneBody: SceneSpace {
     /// Reads one body; values that cannot be read are replaced by zero.
     fn read_body(table: &mut Table, name: &str) -> Self::Body;
 
-    /// The key `start`, which gives the initial pose of a body that does not start at its pose in
-    /// the scene.
+    /// The key `start`, which contains the initial pose of a body if this pose differs from the
+    /// described pose.
     const START: Key;
 
-    /// Reads the value of this key; coordinates that are not given have their described values.
+    /// Reads the value of the key `start`. Coordinates that are not given have their described
+    /// values.
     fn read_start(start: &mut Table, body: &Self::Body) -> FramePose;
 }
 
@@ -44,7 +45,7 @@ pub(crate) struct BodyNames {
     /// Number of bodies without a name. The reader assumes that each of these bodies has one of the
     /// unknown names.
     unnamed: usize,
-    /// The unknown names that are assumed to be names of these bodies.
+    /// The unknown names that are assumed to be names of the bodies without a name.
     theirs: RefCell<BTreeSet<String>>,
 }
 
@@ -60,7 +61,7 @@ impl BodyNames {
         self.entries.push(Entry::of(name, table));
     }
 
-    /// Returns the body with the name in this field; `ground` is the ground.
+    /// Returns the body with the name in this field. The name `ground` refers to the ground.
     pub(crate) fn find(&self, field: &Field) -> Option<BodyRef> {
         let name = field.text("the name of a body")?;
         if name == GROUND {

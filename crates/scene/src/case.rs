@@ -1,4 +1,4 @@
-//! Load cases: named lists of values that replace those of the scene.
+//! Load cases: named lists of values that replace values of the scene.
 
 use std::str::FromStr;
 
@@ -24,7 +24,7 @@ impl FromStr for Setting {
 
     /// Reads `NAME=EXPR`.
     fn from_str(text: &str) -> Result<Self, Self::Err> {
-        // Names may contain the equals sign, expressions may not.
+        // Names may contain the equals sign, but expressions may not.
         let (key, expression) = text.rsplit_once('=').unwrap_or_default();
         let [key, expression] = [key, expression].map(|part| part.trim().to_owned());
         if key.is_empty() || expression.is_empty() {
@@ -35,7 +35,7 @@ impl FromStr for Setting {
 }
 
 impl Setting {
-    /// Returns the text of a scene in which these values replace its own.
+    /// Returns the text of a scene in which these values replace the values of the scene.
     ///
     /// # Errors
     /// [`KeyError`]: a key does not refer to a value of the scene, or the text is not TOML.
@@ -59,7 +59,7 @@ impl Setting {
 pub struct LoadCase {
     /// Name of the case.
     pub name: String,
-    /// The values that replace those of the scene.
+    /// The values that replace values of the scene.
     pub settings: Vec<Setting>,
 }
 

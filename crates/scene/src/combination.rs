@@ -8,7 +8,7 @@ use joints::{LARGEST, is_usable};
 
 use crate::nearest::{list, nearest};
 
-/// The terms of a sum, at least one term.
+/// The terms of a sum; there is at least one term.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Combination {
     /// `Σ coefficient·component`: a scalar.
@@ -61,7 +61,7 @@ pub enum CombinationProblem {
         /// The character found in place of a sign.
         found: char,
     },
-    /// The sum mixes terms of both kinds: some terms are single components, and others are
+    /// The sum mixes terms of both kinds: some terms are single components, and the other terms are
     /// reactions with all their components.
     #[error("`{text}` is {}; write all terms with a component, or none", mixed(.whole))]
     Mixed {
@@ -122,7 +122,7 @@ fn mixed(whole: &bool) -> &'static str {
     }
 }
 
-/// A joint or drive with the components of its reaction, if its definition is available.
+/// A joint or drive. If its definition is available, the components of the reaction are included.
 pub(crate) struct ReactionNames<'a> {
     pub(crate) name: &'a str,
     pub(crate) components: Option<Vec<&'static str>>,
@@ -175,21 +175,22 @@ impl<'a> Reactions<'a> {
         self.by_name.get(name).map(|&at| &self.list[at])
     }
 
-    /// Returns the joint or drive with the longest name at the start of a text, if a term may end
-    /// after this name.
+    /// Finds the names of joints and drives at the start of a text, and returns the joint or drive
+    /// with the longest of these names. A term must be able to end after the name.
     fn longest_at(&self, text: &str) -> Option<&ReactionNames<'a>> {
         starts(text, self.longest).find_map(|start| self.find(start))
     }
 
-    /// Returns the longest name of an inactive joint or drive at the start of a text, if a term may
-    /// end after this name.
+    /// Returns the longest name of an inactive joint or drive at the start of a text. A term must
+    /// be able to end after the name.
     fn inactive_at<'t>(&self, text: &'t str) -> Option<&'t str> {
         let longest = self.inactive.iter().map(|name| name.len()).max()?;
         starts(text, longest).find(|start| self.is_inactive(start))
     }
 }
 
-/// The starts of a text after which a term may end, up to this length (bytes), the longest first.
+/// Returns the initial parts of a text after which a term may end, with at most this length
+/// (bytes). The longest part comes first.
 fn starts(text: &str, longest: usize) -> impl Iterator<Item = &str> {
     let reach = text.floor_char_boundary(longest);
     let end = (reach == text.len()).then_some(reach);
@@ -204,8 +205,8 @@ fn starts(text: &str, longest: usize) -> impl Iterator<Item = &str> {
     ends.map(|end| &text[..end])
 }
 
-/// A term up to the next sign, with the blanks in its name. A name may contain a `-` that does not
-/// follow a blank.
+/// Returns a term up to the next sign, including the blanks in its name. A name may contain a `-`
+/// that does not follow a blank.
 fn whole_term(text: &str) -> &str {
     let sign = |(at, c): (usize, char)| {
         c == '+' || (c == '-' && text[..at].ends_with(char::is_whitespace))
@@ -258,8 +259,8 @@ impl Combination {
         }
     }
 
-    /// Adds a term of the same kind; for a term of the other kind, the error is whether that term
-    /// is a whole wrench.
+    /// Adds a term of the same kind. A term of the other kind is an error; the value of the error
+    /// states whether this term is a whole wrench.
     fn push(&mut self, term: ParsedTerm) -> Result<(), bool> {
         match (self, term) {
             (Self::Components(terms), ParsedTerm::Component(term)) => terms.push(term),
@@ -334,7 +335,7 @@ impl<'a> Scanner<'a> {
         }))
     }
 
-    /// Reads a number before `*`, with its sign if there is one; the result is 1 without a number.
+    /// Reads a number before `*`, with its sign if there is one. Without a number, the result is 1.
     fn factor(&mut self) -> Result<f64, CombinationError> {
         let rest = self.rest();
         let in_number = |c: char| c.is_ascii_digit() || "+-.eE".contains(c) || c.is_whitespace();

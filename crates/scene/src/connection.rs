@@ -17,7 +17,7 @@ pub(crate) const BODY: &str = "body";
 /// Key for two bodies.
 pub(crate) const BODIES: &str = "bodies";
 
-/// Number of bodies that `body` or `bodies` contains; each further body has its own key.
+/// Number of bodies in the value of `body` or `bodies`. Each further body has its own key.
 pub(crate) fn listed(spec: &Spec) -> usize {
     spec.slots.len().min(2)
 }
@@ -25,8 +25,8 @@ pub(crate) fn listed(spec: &Spec) -> usize {
 /// The bodies in `body` or `bodies`; `None` for a body that could not be read.
 pub(crate) type NamedBodies = Vec<Option<BodyRef>>;
 
-/// Reads `body` or `bodies`. If the key is missing or no definition accepts this number of bodies,
-/// the function reports this and returns `None`.
+/// Reads `body` or `bodies`. If both keys are missing or no definition accepts this number of
+/// bodies, the function reports this and returns `None`.
 pub(crate) fn named(
     table: &mut Table,
     specs: &[&'static Spec],
@@ -110,7 +110,7 @@ pub(crate) fn check_names(table: &mut Table, bodies: &BodyNames) {
 }
 
 /// Returns all bodies of the definition: the listed bodies, followed by the bodies with their own
-/// keys; their default is the ground.
+/// keys. If such a key is missing, the body is the ground.
 pub(crate) fn slots(
     table: &mut Table,
     spec: &'static Spec,
@@ -126,8 +126,8 @@ pub(crate) fn slots(
     named
 }
 
-/// Selects a definition by the number of bodies and the key of the variant; returns its index in
-/// `specs`.
+/// Selects a definition by the number of bodies and the key of the variant. Returns the index of
+/// the definition in `specs`.
 pub(crate) fn choose(table: &mut Table, specs: &[&'static Spec], n_named: usize) -> Option<usize> {
     let fitting: Vec<usize> = (0..specs.len())
         .filter(|&k| listed(specs[k]) == n_named)

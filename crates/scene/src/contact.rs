@@ -1,4 +1,4 @@
-//! `one_sided`, `toward`, `grip` and `load`: what a joint cannot do.
+//! `one_sided`, `toward`, `grip` and `load`: limits on the reaction of a joint.
 
 use joints::Argument;
 use joints::spec::ConstraintSpec;
@@ -10,8 +10,8 @@ use crate::key::{Interval, Key, Takes};
 use crate::mistake::Mistake;
 use crate::table::Table;
 
-/// Sine of the smallest angle from a line at which a direction decides a side of the line.
-/// Directions of computed points are along the line only to within rounding.
+/// Sine of an angle between a line and a direction. If the angle is larger, the direction selects
+/// one side of the line. Directions to computed points are along the line only to within rounding.
 const ALONG: f64 = 1e-9;
 
 /// Values of `one_sided`.
@@ -67,11 +67,12 @@ fn open_side(table: &mut Table, spec: &ConstraintSpec, arguments: &[Argument]) -
         }
         return None;
     };
-    // A joint with a mistake in these keys counts as one-sided, so that a `load` may name it.
+    // A joint with a mistake in these keys counts as one-sided, so that a `load` may name this
+    // joint.
     Some(side(table, &field, toward, arguments).unwrap_or(OpenSide::Positive))
 }
 
-/// Returns the side, or reports why it is not known.
+/// Returns the side of the joint, or reports why the side is not known.
 fn side(
     table: &Table,
     field: &Field<'_>,

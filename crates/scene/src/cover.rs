@@ -1,5 +1,5 @@
-//! Keys of `[scene]` for the title of a report. These keys have no effect on the mechanism, and no
-//! clock is read, so the same scene gives the same report.
+//! Keys of `[scene]` for the title of a report. These keys have no effect on the mechanism. The
+//! program reads no clock, so the same scene gives the same report.
 
 use crate::key::{Key, Takes};
 use crate::mistake::Mistake;

@@ -31,8 +31,9 @@ impl Dimension {
     /// The unknown dimension of a value in a wrong context; it agrees with every dimension.
     pub(crate) const UNKNOWN: Self = Self([i8::MIN; 5]);
 
-    /// Returns the dimension of the product with a power of another dimension. Exponents that do
-    /// not occur in physical quantities are limited to the ends of their range.
+    /// Returns the dimension of the product of a quantity of this dimension and a power of a
+    /// quantity of another dimension. Exponents outside of the range of `i8` are set to the ends of
+    /// the range.
     pub(crate) fn times(self, other: Self, power: i8) -> Self {
         if self == Self::UNKNOWN {
             return self;

@@ -1,6 +1,6 @@
-//! Directions and axes of joints and forces. In space they are given in the axes of the first body,
-//! or of the ground (`frame = "global"`), in the described configuration. The directions on the
-//! other body are computed from this configuration, like a reference point.
+//! Directions and axes of joints and forces. In space, directions are given in the axes of the
+//! first body, or of the ground (`frame = "global"`), in the described configuration. The
+//! directions on the other body are computed from this configuration, like a reference point.
 
 mod key;
 
@@ -29,7 +29,7 @@ pub(crate) struct Directions<'b, S: SceneSpace> {
     bodies: &'b Bodies<S>,
     slots: &'b [Option<BodyRef>],
     is_global: bool,
-    /// The direction perpendicular to the axis, as given in the text.
+    /// The direction perpendicular to the axis, in the form given in the text.
     across: Option<S::Vector<f64>>,
     /// Whether the axis is given for both bodies.
     is_paired: bool,
@@ -127,8 +127,8 @@ impl<'b, S: SceneSpace> Directions<'b, S> {
         }
     }
 
-    /// Returns the argument of a parameter that is not in the table of the element, and its
-    /// position in the text.
+    /// Returns the argument of a parameter that the table of the element does not contain, and the
+    /// position of the source of this argument in the text.
     pub(crate) fn given(
         &self,
         spec: &Spec,
@@ -142,8 +142,8 @@ impl<'b, S: SceneSpace> Directions<'b, S> {
         self.is_paired
     }
 
-    /// Returns the body with this index; `None` for the ground, or if the body is unknown, which
-    /// has been reported.
+    /// Returns the body with this index. Returns `None` for the ground and for an unknown body; an
+    /// unknown body has been reported.
     fn body(&self, slot: usize) -> Option<&'b S::Body> {
         let at = self.slots.get(slot).copied().flatten()?.moving()?;
         self.bodies.list.get(at)
@@ -169,8 +169,8 @@ impl<'b, S: SceneSpace> Directions<'b, S> {
         Some(S::argument(self.placed(direction, slot)))
     }
 
-    /// Returns the axis of a parameter. Without a field, it is the axis in `axes`, or the axes of
-    /// the body frame.
+    /// Returns the axis of a parameter. Without a field, the result is the axis in `axes`, or the
+    /// axes of the body frame.
     pub(crate) fn axis(&self, field: Option<&Field>, slot: usize) -> Option<Argument> {
         let axis = match (field, self.own) {
             (Some(field), _) => self.placed(direction::<S>(field)?, slot),
@@ -182,8 +182,8 @@ impl<'b, S: SceneSpace> Directions<'b, S> {
         Some(S::axis(axis, across))
     }
 
-    /// Returns the axes of the body with the index `slot` that are parallel, in the described
-    /// configuration, to given axes of another body.
+    /// Converts axes of one body to axes of the body with the index `slot`. In the described
+    /// configuration, both are parallel.
     pub(crate) fn like(&self, axes: &Argument, [from, slot]: [usize; 2]) -> Argument {
         // An invalid axis is reported for the key in which it is given.
         let axes = bearings::axes(axes).unwrap_or(Axes::FRAME);

@@ -1,5 +1,5 @@
-//! `[[drive]]`: drives prescribe a joint coordinate as a function of time, or apply a load along it
-//! that is given by a force law.
+//! `[[drive]]`: a drive prescribes a joint coordinate as a function of time, or it applies a load
+//! along the joint coordinate. A force law defines the load.
 
 use joints::spec::Unit;
 use model::codes::Code;
@@ -30,7 +30,8 @@ const TORQUE: Key = Key::optional("torque", LAW, Takes::Law).doc(
 );
 const LAW: &str = "a number or an expression of `measure`, `rate` and `t`";
 
-/// Keys of a drive, except its name and its type: a motion, or one of the force laws.
+/// Keys of a drive, except its name and its type. A drive has a joint, and either a motion or a
+/// force law.
 pub(crate) const DRIVE_KEYS: [Key; 4] = [JOINT, MOTION, FORCE, TORQUE];
 
 /// Description of the value of the type of a drive.
@@ -41,8 +42,8 @@ pub(crate) struct DriveRead<S: SceneSpace> {
     pub(crate) name: String,
     pub(crate) is_active: bool,
     pub(crate) action: Action<S>,
-    /// The joint that the drive replaces, if the rows of this joint keep the joint coordinate
-    /// constant.
+    /// The joint that the drive replaces. There is such a joint if its rows keep the joint
+    /// coordinate constant.
     pub(crate) in_place_of: Option<String>,
 }
 
@@ -184,14 +185,14 @@ fn read_law(field: &Field, of: Option<Dimension>) -> Option<Law> {
     field.law(LAW, of, result)
 }
 
-/// Warns about a motion that is a constant other than zero. The author may expect that the constant
-/// is a speed or a position, but the motion of a drive is f(t) − f(0).
+/// Warns about a motion that is a constant other than zero. The author may have intended the
+/// constant as a speed or a position, but the motion of a drive is f(t) − f(0).
 fn warn_if_held(motion: &Field, function: &Function) {
     let [held, ..] = function.jet(0.0);
     if held == 0.0 {
         return;
     }
-    // As written, because the advice is in the units of the scene.
+    // The value is written as in the text, because the advice is in the units of the scene.
     let value = match motion.value.get_ref() {
         DeValue::String(text) => format!("{text:?}"),
         DeValue::Integer(number) => number.as_str().to_owned(),

@@ -78,8 +78,8 @@ pub(crate) struct Types<'r, S: SceneSpace> {
     /// The word for the elements of this section in messages.
     pub(crate) kind: &'static str,
     pub(crate) known: Vec<&'static str>,
-    /// Section of the opposite kind (joints or forces): its table, the word for its elements, and
-    /// its types.
+    /// The section of the other kind of element (forces for joints, joints for forces): the name of
+    /// its table, the word for its elements, and its types.
     pub(crate) other: (&'static str, &'static str, Vec<&'static str>),
 }
 

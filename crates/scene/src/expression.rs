@@ -6,7 +6,7 @@
 //! terminate for any text. Existing parsers for expressions support neither units nor positions, or
 //! they are complete languages.
 //!
-//! The position of a text in the file and the meaning of names are determined elsewhere.
+//! Other modules determine the position of a text in the file and the meaning of names.
 //!
 //! Other parsers were rejected: evalexpr has the AGPL licence, exmex and fasteval support neither
 //! units nor text positions, and numbat is a complete language. Deeply nested input must end with
@@ -30,8 +30,8 @@ use unit::{UNITS, Unit, named};
 
 use crate::dimension::Dimension;
 
-/// Maximum nesting depth of brackets, signs and powers. With a greater depth the stack could
-/// overflow, and the expression would not be readable.
+/// Maximum nesting depth of brackets, signs and powers. At a greater depth, the stack could
+/// overflow and the expression would not be readable.
 const DEEPEST: usize = 60;
 
 /// Functions and their arguments.
@@ -58,7 +58,7 @@ pub(crate) fn units() -> impl Iterator<Item = (&'static str, Quantity)> {
     UNITS.iter().map(quantity)
 }
 
-/// The unit with this name, as the table of units writes it, and as a quantity.
+/// Returns the unit with this name: its name in the table of units, and its size as a quantity.
 pub(crate) fn unit(name: &str) -> Option<(&'static str, Quantity)> {
     named(name).map(quantity)
 }
@@ -79,8 +79,8 @@ fn function(name: &str) -> Option<(&'static str, &'static str)> {
     FUNCTIONS.iter().find(|(known, _)| *known == name).copied()
 }
 
-/// The meaning of a name that is the same in every expression, if there is one; parameters must
-/// have other names. A parameter may have the name of a unit; see [`token::UnitTerm`].
+/// Returns the meaning of a name that has the same meaning in every expression. Parameters must
+/// have other names, except that a parameter may have the name of a unit; see [`token::UnitTerm`].
 pub(crate) fn reserved(name: &str) -> Option<&'static str> {
     match name {
         PI_NAME => Some("a constant"),
@@ -95,7 +95,8 @@ pub(crate) fn known_names() -> impl Iterator<Item = &'static str> {
     units.chain(functions).chain([PI_NAME])
 }
 
-/// The names in an expression that may be parameters; empty if the expression cannot be parsed.
+/// Returns the names in an expression that may be parameters. The list is empty if the expression
+/// cannot be parsed.
 pub(crate) fn names(text: &str) -> Vec<(&str, Range<usize>)> {
     let words = tokens(text).unwrap_or_default().into_iter();
     let name = |(token, span)| match token {
@@ -107,7 +108,7 @@ pub(crate) fn names(text: &str) -> Vec<(&str, Range<usize>)> {
 
 /// The meaning of names in an expression.
 pub(crate) trait Scope {
-    /// Returns the value of a parameter; the inner value is `None` if the text of the parameter is
+    /// Returns the value of a parameter. The inner value is `None` if the text of the parameter is
     /// wrong.
     fn parameter(&self, name: &str) -> Option<Option<Quantity>>;
     /// Units of bare numbers.
@@ -127,8 +128,8 @@ trait Value: Clone + From<Quantity> {
     /// Applies the operator `+ - * / ^` to this and another value.
     fn joined(self, sign: u8, other: Self, bases: Bases) -> Result<Self, Problem>;
 
-    /// Applies a function; the number of values is correct. A problem is returned with a flag that
-    /// is true if it concerns the first argument.
+    /// Applies a function. The caller has checked the number of values. An error contains a flag
+    /// that is true if the problem concerns the first argument.
     fn call(name: &'static str, values: &[Self], bases: Bases) -> Result<Self, (bool, Problem)>;
 }
 
@@ -424,8 +425,8 @@ impl Value for Quantity {
     }
 
     fn call(name: &'static str, q: &[Self], bases: Bases) -> Result<Self, (bool, Problem)> {
-        // For functions of numbers and angles, errors are marked at the argument; for other
-        // functions, at the whole call.
+        // For functions of numbers and angles, the error is marked at the argument. For other
+        // functions, the error is marked at the whole call.
         let x = match taken(name) {
             Some(of) => q[0].at(of, bases).map_err(|e| (true, e))?,
             None => q[0],
@@ -457,8 +458,8 @@ impl Value for Quantity {
     }
 }
 
-/// Lower limit of 1 − x² near the ends of inverse sine and cosine. The limit is the error of x, so
-/// the error of the arc is at most the square root of this limit.
+/// Lower limit of 1 − x² near the ends of the range of inverse sine and cosine. The limit is the
+/// error of x, so the error of the arc is at most the square root of this limit.
 fn x_error(x: Quantity) -> f64 {
     x.error.max(f64::EPSILON)
 }

@@ -178,7 +178,7 @@ impl<'t> Field<'t> {
         }
     }
 
-    /// Reads a finite number, or the value of an expression; bare numbers do not have a dimension
+    /// Reads a finite number, or the value of an expression. Bare numbers do not have a dimension
     /// yet.
     pub(crate) fn quantity(&self, expected: &str, language: &Language) -> Option<Quantity> {
         if let Some(text) = self.value.get_ref().as_str().filter(|_| language.computes) {
@@ -254,7 +254,8 @@ impl<'t> Field<'t> {
             return;
         }
         if let Problem::Twice { name } = problem {
-            // The position of the parameter, so that all of its uses are one error.
+            // The error has the position of the parameter, so that all uses of the parameter are
+            // one error.
             let place = language.position(name).unwrap_or_else(|| self.part(span));
             let code = Mistake::from(&problem);
             let (message, help) = (problem.to_string(), problem.help());
@@ -450,7 +451,7 @@ fn warn_of_degrees(fields: &[Field], numbers: &[Number]) {
     }
 }
 
-/// Reads all values; a value that cannot be read does not prevent the reading of the others.
+/// Reads all values. A value that cannot be read does not prevent the reading of the other values.
 pub(crate) fn all<X, Y>(from: &[X], read: impl FnMut(&X) -> Option<Y>) -> Option<Vec<Y>> {
     let read: Vec<_> = from.iter().map(read).collect();
     read.into_iter().collect()

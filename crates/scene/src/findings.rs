@@ -14,7 +14,7 @@ use crate::nearest::nearest;
 use crate::text::SourceText;
 
 /// Names are suggested for at most this number of problems. If thousands of names are wrong, a
-/// comparison of each one with all known names would take minutes.
+/// comparison of each wrong name with all known names would take minutes.
 const SUGGESTIONS: usize = 100;
 
 /// Largest number of names compared for suggestions in one file.
@@ -27,7 +27,7 @@ pub(crate) const LISTED: usize = 5000;
 /// Largest number of warnings of one kind that are listed; further warnings are only counted.
 const WARNED: usize = 10;
 
-/// The same for warnings about a whole scene.
+/// Largest number of warnings of one kind about a whole scene that are listed.
 const ONCE: usize = 1;
 
 /// The problems of a file, in the order of their detection. Tables and fields contain a reference
@@ -45,7 +45,8 @@ struct Lists {
     problems: Vec<Diagnostic>,
     /// Warnings: the scene is valid, but it is probably not what the author intended.
     warnings: Vec<Diagnostic>,
-    /// For each kind of warning, the number of listed warnings and the number of the others.
+    /// For each kind of warning, the number of listed warnings and the number of warnings that are
+    /// only counted.
     warned: BTreeMap<Code, (usize, usize)>,
     /// Codes of warnings that the user suppresses.
     silenced: Vec<Code>,
@@ -81,8 +82,8 @@ impl<'s> Findings<'s> {
         self.lists.borrow().problems.len()
     }
 
-    /// Removes a problem that is only a consequence of another one, so that one mistake causes one
-    /// message.
+    /// Removes a problem that is only a consequence of another problem, so that one mistake causes
+    /// one message.
     pub(crate) fn explain(&self, place: usize) {
         self.lists.borrow_mut().explained.push(place);
     }
@@ -146,8 +147,8 @@ impl<'s> Findings<'s> {
         std::mem::take(&mut self.lists.borrow_mut().silenced)
     }
 
-    /// Adds a warning; a file with warnings is valid. The advice ends with the code that suppresses
-    /// the warning. After [`WARNED`] warnings of one kind, further ones are only counted.
+    /// Adds a warning. A file with warnings is valid. The advice ends with the code that suppresses
+    /// the warning. After [`WARNED`] warnings of one kind, further warnings are only counted.
     pub(crate) fn warning(
         &self,
         code: Code,
@@ -159,8 +160,8 @@ impl<'s> Findings<'s> {
         self.warn((code, WARNED), span, message, label, help);
     }
 
-    /// Adds a warning of a kind that is listed only once for a scene; further ones are only
-    /// counted.
+    /// Adds a warning of a kind that is listed only once for a scene. Further warnings of this kind
+    /// are only counted.
     pub(crate) fn warning_once(
         &self,
         code: Code,
@@ -258,8 +259,8 @@ impl<'s> Findings<'s> {
         }
     }
 
-    /// Returns the known name that was probably intended; only if there are few problems and few
-    /// names.
+    /// Returns the known name that was probably intended. Returns a name only if there are few
+    /// problems and few names.
     pub(crate) fn suggest<'a>(
         &self,
         name: &str,
@@ -280,8 +281,8 @@ impl<'s> Findings<'s> {
         self.source.line(offset)
     }
 
-    /// Returns all problems in the order of the file without repetitions; if there are too many,
-    /// the last one states how many are not listed.
+    /// Returns all problems in the order of the file without repetitions. If there are too many
+    /// problems, the last entry states how many are not listed.
     pub(crate) fn sorted(self) -> Vec<Diagnostic> {
         let Lists {
             mut problems,

@@ -241,7 +241,7 @@ fn steps(table: &mut Table, of: Dimension) -> Option<Function> {
     let items = field.items(STEPS.expected)?;
     let read = all(&items, |item| step(item, of));
     let (start, mut steps) = (start?, read?);
-    // The constructor reports only the first error, so the step is replaced by a valid one and the
+    // The constructor reports only the first error, so the step is replaced by a valid step and the
     // construction is repeated.
     let mut faultless = true;
     for _ in 0..=items.len() {
@@ -327,10 +327,10 @@ fn points(
     Some(function)
 }
 
-/// Returns the number of derivatives that a function of this dimension needs, or reports that they
-/// do not exist at the start. A load needs only a value, a prescribed velocity also a rate, and the
-/// motion of a drive also a second derivative. Prescribed motions must have no kinks, because the
-/// times of kinks are not known in advance.
+/// Returns the number of derivatives that a function of this dimension needs, or reports that these
+/// derivatives do not exist at the start. A load needs only a value. A prescribed velocity needs
+/// one derivative, and the motion of a drive needs two derivatives. Prescribed motions must have no
+/// kinks, because the times of kinks are not known in advance.
 fn regular(function: &Function, of: Dimension, field: &Field) -> Option<usize> {
     let loads = [Unit::Force, Unit::Torque].map(Dimension::from);
     let derivatives = match of {
@@ -367,7 +367,8 @@ fn regular(function: &Function, of: Dimension, field: &Field) -> Option<usize> {
     None
 }
 
-/// The first of the value and these derivatives that does not exist at a time.
+/// Returns which of the value and these derivatives does not exist at a time. If several do not
+/// exist, the result is the lowest order.
 fn missing(function: &Function, derivatives: usize, t: f64) -> Option<&'static str> {
     let names = ["value", "rate", "second derivative"];
     let all = names.into_iter().zip(function.jet(t)).take(derivatives + 1);

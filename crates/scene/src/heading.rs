@@ -98,8 +98,8 @@ impl<S: SceneSpace> Heading<S> {
 
 /// Returns whether the bodies of the scene move in space. If the key is missing or unknown, the
 /// function uses the number of components of the first position or point, so that one mistake does
-/// not cause many messages. If there is no position or point, it uses the name most similar to the
-/// unknown one.
+/// not cause many messages. If there is no position or point, the function uses the known name that
+/// is most similar to the unknown name.
 pub(crate) fn is_spatial(root: &DeTable) -> bool {
     let heading = root.get(section::SCENE.name);
     let space = heading.and_then(|heading| heading.get_ref().get(SPACE.name));

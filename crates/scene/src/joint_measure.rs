@@ -1,5 +1,5 @@
-//! Joint coordinates, to which tables refer: a drive prescribes one, a coupling relates two, and a
-//! spring acts on an angle.
+//! Joint coordinates, to which tables refer: a drive prescribes one joint coordinate, a coupling
+//! relates two joint coordinates, and a spring acts on an angle.
 
 use joints::Argument;
 use joints::spec::Measure;
@@ -66,8 +66,9 @@ pub(crate) struct JointMeasure<'j, 'r, S: SceneSpace> {
 }
 
 impl<'r, S: SceneSpace> JointRead<'r, S> {
-    /// Returns the joint coordinate with this name, or the first suitable one. If there is no such
-    /// joint coordinate, the function reports this at a field and returns `None`.
+    /// Returns the joint coordinate with this name, or otherwise the first suitable joint
+    /// coordinate. If there is no suitable joint coordinate, the function reports this at a field
+    /// and returns `None`.
     pub(crate) fn measure(
         &self,
         name: Option<&str>,
@@ -146,11 +147,11 @@ impl<'r, S: SceneSpace> JointRead<'r, S> {
 
 impl<S: SceneSpace> JointMeasure<'_, '_, S> {
     /// Returns the bodies of the joint, and the arguments for a drive of the joint coordinate, if
-    /// all could be read.
+    /// all arguments could be read.
     fn arguments(&self) -> Option<(Vec<BodyRef>, Vec<Argument>)> {
         let complete = self.joint.complete.as_ref()?;
         let mut arguments = complete.arguments.clone();
-        // The last argument is that of the motion.
+        // The last argument is the argument of the motion.
         arguments.push(Argument::Absent);
         Some((complete.joint.bodies.clone(), arguments))
     }

@@ -27,7 +27,7 @@ pub(crate) struct JointNames<'j, 'r, S: SceneSpace> {
     list: &'j [JointRead<'r, S>],
     /// Joints by name; if a name is used twice, the first joint.
     by_name: HashMap<&'j str, &'j JointRead<'r, S>>,
-    /// Joints by body, computed when they are first needed.
+    /// Joints by body. This table is computed at the first use.
     by_body: OnceCell<HashMap<BodyRef, Vec<&'j JointRead<'r, S>>>>,
 }
 

@@ -38,7 +38,7 @@ pub(crate) struct CompleteJoint<S: SceneSpace> {
     pub(crate) entry: Entry,
     /// Values of the parameters of the definition.
     pub(crate) arguments: Vec<Argument>,
-    /// The point about which its moment gives way, if it is given.
+    /// The centre of stiffness of the joint, if it is given.
     pub(crate) centre: Option<CentreOfStiffness>,
 }
 

@@ -35,9 +35,9 @@ pub(crate) enum Takes {
     Text,
     /// One of these texts.
     OneOf(fn() -> Vec<&'static str>),
-    /// `true` or `false`, or a number; only the number zero means `false`.
+    /// `true` or `false`.
     Flag,
-    /// `true` or `false`, or a number, of which only zero means `false`.
+    /// `true` or `false`, or a number. Only the number zero means `false`.
     Switch,
     /// An integer in this range.
     Whole(i64, i64),
@@ -51,7 +51,7 @@ pub(crate) enum Takes {
     Vector(usize, Interval),
     /// A direction with this number of components: the name of an axis, or a vector.
     Direction(usize),
-    /// Two such directions.
+    /// Two directions with this number of components.
     Directions(usize),
     /// An orientation of a body.
     Orientation,
@@ -59,15 +59,15 @@ pub(crate) enum Takes {
     Table(&'static [Key]),
     /// `true` or `false`, or a table with these keys.
     FlagOr(&'static [Key]),
-    /// A list of at least this number of numbers.
+    /// Three numbers, or three rows of three numbers.
     Tensor,
-    /// A list of at least this number of texts.
+    /// A list of at least this number of numbers.
     Numbers(usize),
-    /// At least this number of texts.
+    /// A list of at least this number of texts.
     Texts(usize),
     /// `true` for all items, `false` for no item, or a list of names.
     Names,
-    /// A list of plots: each a list of names, or a table with these keys.
+    /// A list of plots. Each plot is a list of names, or a table with these keys.
     Plots(&'static [Key]),
     /// A list of rows (1-based).
     Rows,

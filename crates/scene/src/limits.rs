@@ -1,6 +1,6 @@
-//! Limits of a text that are checked before parsing: the parser needs memory for every value, and
-//! very long lines are not readable. The module also defines how accurately the axes of wheels must
-//! meet.
+//! Limits of a text. They are checked before parsing, because the parser needs memory for every
+//! value and very long lines are not readable. The module also defines how accurately the axes of
+//! wheels must meet.
 
 use std::ops::Range;
 
@@ -10,9 +10,10 @@ use std::ops::Range;
 pub(crate) const LONGEST_LINE: usize = 4 << 20;
 
 /// Maximum number of the characters `[`, `{`, `,` and `=`. The text of 100 000 joints with their
-/// bodies contains less than two million of them. While the file is read, each character needs
-/// about 200 bytes of memory. Unit: number. Too small: large scenes are rejected. Too large: the
-/// memory of small machines is insufficient. Test: `large_texts_are_refused_at_once`.
+/// bodies contains less than two million of these characters. While the file is read, each
+/// character needs about 200 bytes of memory. Unit: number. Too small: large scenes are rejected.
+/// Too large: the memory of small machines is insufficient. Test:
+/// `large_texts_are_refused_at_once`.
 pub(crate) const MOST_SIGNS: usize = 1 << 23;
 
 /// Two axes of wheels are parallel if the sine of the angle between them is below this limit.
@@ -28,7 +29,7 @@ pub(crate) const MEETING: f64 = 1e-6;
 
 /// Largest plausible ratio of a given force to the weight of all bodies. A force of 5 kN that is
 /// given as 5000 kN, or masses that are given in tonnes, make it 1000 times too large. Unit: share.
-/// Too small: a jack or a cylinder that moves more than its mechanism gives a warning. Too large: a
+/// Too small: a jack or a cylinder that lifts an additional load gives a warning. Too large: a
 /// wrong unit causes no warning. Test: `a_force_of_a_hundred_weights_is_reported`.
 pub(crate) const HEAVIEST_FORCE: f64 = 100.0;
 
@@ -39,10 +40,10 @@ pub(crate) const HEAVIEST_FORCE: f64 = 100.0;
 /// `a_spring_of_ten_free_lengths_is_reported`.
 pub(crate) const LONGEST_SPRING: f64 = 10.0;
 
-/// Number of equal parts of the run, at whose ends expressions of the time must have a value, and
-/// forces are compared with the weight. Unit: number. Too small: an expression without a value
-/// stops the run instead of being reported at its position. Too large: reading a scene with many
-/// functions takes longer. Test: `a_force_of_a_hundred_weights_is_reported`.
+/// Number of equal parts of the run. At the ends of these parts, expressions of the time must have
+/// a value, and forces are compared with the weight. Unit: number. Too small: an expression without
+/// a value stops the run instead of being reported at its position. Too large: reading a scene with
+/// many functions takes longer. Test: `a_force_of_a_hundred_weights_is_reported`.
 pub(crate) const RUN_INSTANTS: u32 = 100;
 
 /// A violation of a limit: its position, the message, and the text at the mark.

@@ -172,7 +172,7 @@ pub(crate) fn start(map: &SourceMap, error: &StartError) -> Diagnostic {
 }
 
 /// Returns the positions of given velocities that are impossible: first the drives, then the
-/// velocity, or the table that contains it.
+/// velocity or the table that contains the velocity.
 fn velocities(map: &SourceMap, conflict: &VelocityConflict, error: &StartError) -> Diagnostic {
     let span = match (conflict.is_kept, conflict.coordinate) {
         (true, _) => map.section("start", "keep"),
@@ -261,15 +261,15 @@ pub(crate) fn motion(map: &SourceMap, error: &MotionError) -> Diagnostic {
     at(map, span, error, label)
 }
 
-/// Returns the positions of redundant rows that prescribe different motions: those of the drives,
-/// or of all rows if there are no drives.
+/// Returns the positions of redundant rows that prescribe different motions. These are the
+/// positions of the drives, or of all rows if there are no drives.
 fn contradicting(
     map: &SourceMap,
     (drives, others): (Vec<&RowLabel>, Vec<&RowLabel>),
     forcing: &[&str],
     error: &impl CodedError,
 ) -> Diagnostic {
-    // Rows that are violated because of a drive are not wrong themselves.
+    // If a row is violated because of a drive, the row itself is not wrong.
     let mut spans = forcing
         .iter()
         .take(MARKS)
@@ -287,7 +287,7 @@ fn contradicting(
             let marks = ["requires what the others forbid", "holds it"];
             (rows.collect(), marks)
         }
-        // Joints that connect the drives are not wrong themselves.
+        // The joints that connect the drives are not wrong.
         _ => (drives, ["contradicts the others", "contradicts too"]),
     };
     at_rows(map, rows, error, marks)
@@ -351,15 +351,15 @@ fn row(map: &SourceMap, label: &RowLabel) -> Range<usize> {
     element_key(map, &label.joint, &[])
 }
 
-/// Returns the position of the first of these keys that a joint, drive or force has, or otherwise
-/// of its name.
+/// Returns the position of the first of these keys in the table of a joint, drive or force. If the
+/// table has none of these keys, returns the position of the name.
 fn element_key(map: &SourceMap, name: &str, keys: &[&str]) -> Range<usize> {
     let entry = map.element(name);
     entry.map_or_else(|| map.section("scene", ""), |entry| entry.first_of(keys))
 }
 
-/// Returns the position of the first of these keys that a body, marker or measure has, or otherwise
-/// of its name.
+/// Returns the position of the first of these keys in the table of a body, marker or measure. If
+/// the table has none of these keys, returns the position of the name.
 fn place_key(map: &SourceMap, name: &str, keys: &[&str]) -> Range<usize> {
     let entry = map.places().find(|entry| entry.name == name);
     entry.map_or_else(|| map.section("scene", ""), |entry| entry.first_of(keys))
@@ -410,7 +410,7 @@ fn body_key(
 }
 
 /// Returns the position of the wrong bodies of the element with this name. The bodies of a drive
-/// are those of its joint.
+/// are the bodies of its joint.
 fn connection(
     map: &SourceMap,
     d: &AnyDescription,

@@ -106,9 +106,9 @@ impl Markers {
         }
     }
 
-    /// Returns whether a field for a point contains the name of a marker. The value must be the
-    /// name of a known marker, or, in a scene with markers, a text that is not a number with a
-    /// unit.
+    /// Returns whether a field for a point contains the name of a marker. This is true for the name
+    /// of a known marker. In a scene with markers, it is also true for a text that is not a number
+    /// with a unit.
     pub(crate) fn may_be(&self, field: &Field) -> bool {
         let text = field.value.get_ref().as_str();
         text.is_some_and(|text| {

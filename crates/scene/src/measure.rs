@@ -185,7 +185,7 @@ fn kind(table: &mut Table, space: SpaceKind) -> Option<MeasureKind> {
     found
 }
 
-/// Reads the indices of the two markers; `None` stands for the ground.
+/// Reads the indices of the two markers. `None` means the ground.
 fn between(table: &mut Table, markers: &Markers) -> Option<[Option<usize>; 2]> {
     let field = table.required(&MARKERS)?;
     let items = field.items(MARKERS.expected)?;

@@ -36,7 +36,7 @@ pub(crate) enum Mistake {
     NoDirection,
     /// A text that is too large to be read.
     TooLarge,
-    /// A text that is not one of the allowed values of a key.
+    /// A text that is not an allowed value of its key.
     UnknownChoice,
     /// Keys of one table that must not be given together.
     Exclusive,
@@ -74,7 +74,7 @@ pub(crate) enum Mistake {
     Units,
     /// An expression without a finite value.
     NoValue,
-    /// Definitions of joints whose registration does not satisfy the requirements of the reader.
+    /// Registered definitions of joints that do not satisfy the requirements of the reader.
     Registry,
     /// A list without entries.
     EmptyList,

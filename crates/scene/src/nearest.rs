@@ -4,8 +4,8 @@
 /// length.
 const LONGEST: usize = 80;
 
-/// Names in other programs and books, each with the name used here; the book contains this list.
-/// These words are used only for suggestions; words that are not candidates are skipped.
+/// Names in other programs and books, each with the name used here. The book contains this list.
+/// These names are used only for suggestions; a name that is not a candidate is skipped.
 pub const ELSEWHERE: &[(&str, &str)] = &[
     ("pin", "revolute"),
     ("hinge", "revolute"),
@@ -104,9 +104,10 @@ pub const ELSEWHERE: &[(&str, &str)] = &[
     ("--dt", "--max-step"),
 ];
 
-/// Returns the candidate that is most similar to `name`, if one is similar enough. A candidate is
-/// similar if other programs use `name` for it, or if one of the two is the plural of the other. It
-/// is also near if at most a third of its letters (but not all) differ.
+/// Returns the candidate that is most similar to `name`, if a candidate is similar enough. A
+/// candidate is similar if other programs use `name` for it, or if the candidate is the plural or
+/// the singular of `name`. A candidate is also similar if at most a third of its letters (but not
+/// all) differ.
 ///
 /// ```
 /// assert_eq!(pfaff_scene::nearest("hinge", ["fixed", "revolute"]), Some("revolute"));
@@ -151,7 +152,7 @@ pub fn nearest<'a>(name: &str, candidates: impl IntoIterator<Item = &'a str>) ->
     best.map(|(_, candidate)| candidate)
 }
 
-/// Returns the name used here for a name in other programs and books, if the two differ.
+/// Returns the name used here for a name in other programs and books, if the two names differ.
 pub(crate) fn meant(name: &str) -> Option<&'static str> {
     let mut known = ELSEWHERE.iter();
     known.find_map(|(said, here)| name.eq_ignore_ascii_case(said).then_some(*here))
@@ -165,7 +166,7 @@ pub(crate) fn did_you_mean<'a>(
     nearest(name, candidates).map(|candidate| format!("did you mean `{candidate}`?"))
 }
 
-/// Largest number of names in an advice.
+/// Largest number of names that a piece of advice lists.
 const LISTED: usize = 10;
 
 /// The advice `the … are …`, if there are few names.
@@ -201,8 +202,9 @@ struct Rows {
 }
 
 impl Rows {
-    /// Returns the number of letters to insert, delete, replace or exchange with their neighbour
-    /// (optimal string alignment), if it is at most `limit`.
+    /// Returns the number of insertions, deletions, replacements and exchanges of neighbouring
+    /// letters between two texts (optimal string alignment). Returns `None` if the number is above
+    /// `limit`.
     fn distance(&mut self, a: &[char], b: &[char], limit: usize) -> Option<usize> {
         if a.len().abs_diff(b.len()) > limit {
             return None;
@@ -214,7 +216,7 @@ impl Rows {
         for (j, x) in self.last.iter_mut().enumerate() {
             *x = j;
         }
-        // An exchange of neighbours uses the second-last row. Therefore no later distance is below
+        // An exchange of neighbours uses the last row but one. Therefore no later distance is below
         // the smaller of the minima of the last two rows.
         let mut least_before = 0;
         for i in 1..=a.len() {

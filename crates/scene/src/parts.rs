@@ -90,8 +90,8 @@ impl<'r, S: SceneBody> Parts<'r, S> {
         }
     }
 
-    /// Joints and drives by name, including those that could not be read: all of them, or only the
-    /// active ones.
+    /// Returns all joints and drives by name, or only the active joints and drives. Joints and
+    /// drives that could not be read are included.
     pub(crate) fn reactions(&self, of: Participation) -> Reactions<'_> {
         let space = self.names.space;
         let joints = self.joints.iter().map(|joint| {

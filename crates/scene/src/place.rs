@@ -40,7 +40,7 @@ pub(crate) fn local_key(spec: &Spec) -> &'static str {
     }
 }
 
-/// The frames of the points of such a key, in words for messages.
+/// Returns the frames of the points of a key, in words for messages.
 fn frames(local_key: &str) -> &'static str {
     match local_key {
         POINT => "in the frame of the body",
@@ -48,8 +48,8 @@ fn frames(local_key: &str) -> &'static str {
     }
 }
 
-/// The indices of the bodies whose points a table contains. These are all bodies of a definition,
-/// or only the last one if bearings define the points of the others.
+/// Returns the indices of the bodies whose points a table contains. These are all bodies of a
+/// definition. If bearings define the points, it is only the last body.
 pub(crate) fn slots_of_points(spec: &Spec) -> Vec<usize> {
     let mut slots: Vec<usize> = spec.slots_of_points().collect();
     if spec.bearings {
@@ -58,7 +58,7 @@ pub(crate) fn slots_of_points(spec: &Spec) -> Vec<usize> {
     slots
 }
 
-/// Reads the reference point of a definition with the bodies `slots`; the result contains the
+/// Reads the reference point of a definition with the bodies `slots`. The result contains the
 /// points of the bodies with the indices `of`.
 pub(crate) fn read<S: SceneSpace>(
     table: &mut Table,
@@ -116,7 +116,7 @@ pub(crate) fn read<S: SceneSpace>(
     }
 }
 
-/// Reads `at`, which contains one common point, or one point for each parameter.
+/// Reads `at`. The value is one common point, or one point for each parameter.
 fn global<S: SceneSpace>(
     at: &Field,
     spec: &Spec,
@@ -179,8 +179,8 @@ fn point<'b, S: SceneSpace>(
     point.map(PointText::At)
 }
 
-/// Returns the fields of `n` points. If the number of points differs, the function reports this and
-/// returns `None`.
+/// Returns the fields of `n` points. If the number of points is not `n`, the function reports this
+/// and returns `None`.
 fn several<'t>(
     field: &Field<'t>,
     n: usize,
@@ -197,7 +197,7 @@ fn several<'t>(
 }
 
 /// Reads points in the frame of one body and converts them to points relative to the centre of
-/// mass; several points are in a list.
+/// mass. Several points are written as a list.
 fn of_body<S: SceneSpace>(
     field: &Field,
     n: usize,

@@ -3,8 +3,8 @@
 //! unit. To use such a number intentionally, the author of the scene suppresses the warning by its
 //! code (`silence`).
 //!
-//! A check that needs only one value is done when the value is read; for angles, see `angles`. For
-//! checks that need the mechanism, see `mechanism`; for forces, see `forces`.
+//! A check that needs only one value is done when the value is read. `angles` checks angles,
+//! `mechanism` contains the checks that need the mechanism, and `forces` checks forces.
 
 pub(crate) mod angles;
 pub(crate) mod forces;

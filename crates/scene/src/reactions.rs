@@ -167,7 +167,7 @@ const COMBINE: Key =
         "A sum of components as \"W3.N + W4.N\" or of whole reactions as \"W3 + W4\", with factors where wanted",
     );
 
-/// Keys of a group, of which exactly one must be given, in addition to the name.
+/// Keys of a group, in addition to the name. Exactly one of these keys must be given.
 pub(crate) const GROUP_KEYS: [Key; 2] = [MEMBERS, COMBINE];
 
 const TRAJECTORY: Key = Key::optional("trajectory", "true or false", Takes::Flag)
@@ -267,8 +267,8 @@ pub(crate) const OUTPUT_KEYS: [Key; 10] = [
     BODIES,
 ];
 
-/// Components that can be requested: force and torque, even if they are identically zero, and the
-/// component named by the definition.
+/// Returns the components that can be requested: force and torque, even if they are identically
+/// zero, and the components that the definition names.
 pub(crate) fn components(space: SpaceKind, spec: &ConstraintSpec) -> Vec<&'static str> {
     let all = space.components().iter().copied();
     all.chain(spec.component).collect()

@@ -38,7 +38,7 @@ use crate::text::SourceText;
 
 /// Reads a scene file.
 ///
-/// `source_name` is the name in diagnostics, usually the path; `registry` contains the joints and
+/// `source_name` is the name in diagnostics, usually the path. `registry` contains the joints and
 /// forces that are permitted in the text.
 ///
 /// # Errors
@@ -270,9 +270,9 @@ fn groups<S: SceneBody>(root: &mut Table, parts: &mut Parts<S>) -> (Vec<GroupReq
     (groups, entries)
 }
 
-/// Builds the mechanism for a check. Reports the errors of the build, or otherwise implausible
-/// values of the mechanism. The existence of bodies and all names, including the names in
-/// unreadable tables, were checked earlier.
+/// Builds the mechanism for a check. Reports the errors of the build. If there are no errors,
+/// reports implausible values of the mechanism. The reader checked earlier that bodies exist, and
+/// it checked all names, including the names in unreadable tables.
 fn check(
     description: &AnyDescription,
     source: &SourceMap,

@@ -43,7 +43,7 @@ pub struct Scene {
     pub simulate: Option<MotionOptions>,
     /// Requested output.
     pub output: Output,
-    /// The points about which moments of joints give way, for joints with such a point.
+    /// The centres of stiffness, for joints with such a point.
     pub centres: Vec<CentreOfStiffness>,
     /// Combinations of reactions for which uniqueness verdicts are requested.
     pub groups: Vec<GroupRequest>,
@@ -119,9 +119,9 @@ impl Scene {
         self.warnings.iter().map(Diagnostic::sentence)
     }
 
-    /// Returns the position of an error of [`model::Mechanism::build`], for descriptions that were
-    /// changed after reading. If there is no text, this function and the other functions for
-    /// positions return `None`.
+    /// Returns the position of an error of [`model::Mechanism::build`]. This function is useful for
+    /// descriptions that were changed after reading. If there is no text, this function and the
+    /// other functions for positions return `None`.
     #[must_use]
     pub fn locate_build(&self, error: &BuildError) -> Option<Diagnostic> {
         let source = self.source.as_ref()?;
@@ -147,8 +147,8 @@ impl Scene {
         source.is_some_and(|source| source.silenced.contains(&code))
     }
 
-    /// A warning about joints, which is found after the scene was read: its code, the joints, and
-    /// the message with advice.
+    /// Creates a warning about joints that was found after the scene was read. The arguments are
+    /// the code, the joints, and the message with advice.
     #[must_use]
     pub fn warning_about<'a>(
         &self,
@@ -196,7 +196,7 @@ impl Scene {
         all.any(|x| x.name == name && matches!(x.kind, "joint" | "drive"))
     }
 
-    /// Returns the joint or drive with the most similar name, if one is similar enough.
+    /// Returns the joint or drive with the most similar name, if this name is similar enough.
     #[must_use]
     pub fn nearest_reaction(&self, name: &str) -> Option<&str> {
         let named = self.description.joints().chain(self.description.drives());

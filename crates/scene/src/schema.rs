@@ -99,8 +99,8 @@ const OF_SPACE: [&Section; 7] = [
     &section::FORCE,
 ];
 
-/// Returns the sections of a space, and adds their definitions; in three-dimensional space the
-/// names of the definitions have a prefix.
+/// Returns the sections of a space, and adds the definitions of these sections. In
+/// three-dimensional space, the names of the definitions have a prefix.
 fn in_space<S: SceneBody>(registry: &Registry, definitions: &mut Map<String, Value>) -> Value {
     let registry = S::definitions(registry);
     let tables = [
@@ -130,7 +130,8 @@ fn in_space<S: SceneBody>(registry: &Registry, definitions: &mut Map<String, Val
     properties.into()
 }
 
-/// Adds a type that the registry does not contain to the elements of a section; its keys are given.
+/// Adds a type with these keys to the elements of a section. The registry does not contain this
+/// type.
 fn with_type(
     mut elements: Value,
     title: &str,
@@ -154,7 +155,7 @@ fn joints<S: SceneSpace>(registry: &Definitions<S>) -> Value {
     with_type(joints, "Joint", COUPLING, (doc, &keys))
 }
 
-/// The forces; in space with springs on angles.
+/// The forces. In space, springs on angles are included.
 fn forces<S: SceneSpace>(registry: &Definitions<S>) -> Value {
     let forces = elements(registry, ElementKind::Force);
     if S::KIND != SpaceKind::Space3 {
@@ -180,7 +181,7 @@ enum Times {
     Many,
 }
 
-/// A table with these keys and no others.
+/// A table with these keys and no other keys.
 fn table(title: &str, keys: &[Key]) -> Value {
     let mut properties = Map::new();
     let mut required = Vec::new();

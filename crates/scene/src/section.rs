@@ -104,7 +104,7 @@ pub(crate) fn tables<'t>(
         .collect()
 }
 
-/// Reads a table with its name. If it has no name, its index is used in its place.
+/// Reads a table with its name. If the table has no name, its index replaces the name.
 fn named<'t>(item: &Field<'t>, kind: &str, number: usize) -> Option<(Table<'t>, String)> {
     let Some(entries) = item.value.get_ref().as_table() else {
         item.mismatch(&format!("a list of tables `[[{kind}]]`"));
@@ -150,8 +150,8 @@ pub(crate) fn unfit(name: &str) -> Option<(String, &'static str)> {
 /// A suggestion for names that are not permitted.
 const OTHER: &str = "choose another name";
 
-/// Returns the reason why a text is not one line of at most `most` characters; `what` names texts
-/// of its kind.
+/// Returns the reason why a text is not one line of at most `most` characters. `what` is the word
+/// for the text in the message.
 pub(crate) fn unfit_line(text: &str, most: usize, what: &str) -> Option<String> {
     if let Some(c) = text.chars().find(|c| c.is_control()) {
         return Some(format!(

@@ -17,7 +17,7 @@ use crate::nearest::{did_you_mean, list};
 use crate::plausible;
 use crate::table::Table;
 
-/// The values of a key, each with the value of an enum.
+/// The allowed texts of a key, each with its value of the enum `T`.
 pub(crate) struct Choice<T: 'static> {
     pub(crate) key: Key,
     pub(crate) available: &'static [T],
@@ -103,7 +103,7 @@ fn names<T: Copy>(all: &[T], name: fn(T) -> &'static str) -> Vec<&'static str> {
     all.iter().map(|value| name(*value)).collect()
 }
 
-/// Number of output rows for which an error message suggests a step.
+/// Number of output rows from which an error message computes the suggested step.
 const USEFUL_ROWS: f64 = 1e4;
 
 /// The section, with the positions that later checks need.
@@ -233,8 +233,8 @@ pub(crate) fn choose<T: Copy>(table: &mut Table, choice: &Choice<T>) -> Option<T
     None
 }
 
-/// Reads the rows to treat as dependent, which are 1-based in the file and 0-based in the result. A
-/// later check, after the build of the mechanism, reports rows that do not exist.
+/// Reads the rows to treat as dependent. They are 1-based in the file and 0-based in the result.
+/// After the mechanism has been built, another check reports rows that do not exist.
 fn rows(field: &Field) -> Vec<(usize, Range<usize>)> {
     const EXPECTED: &str = DROP.expected;
     let mut rows: Vec<(usize, Range<usize>)> = Vec::new();

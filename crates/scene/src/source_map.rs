@@ -40,13 +40,15 @@ impl Entry {
         }
     }
 
-    /// Position of the value of `name`, or of the header if the table has no name.
+    /// Returns the position of the value of `name`. If the table has no name, returns the position
+    /// of the header.
     #[must_use]
     pub fn name_span(&self) -> Range<usize> {
         self.value("name").unwrap_or_else(|| self.header.clone())
     }
 
-    /// Position of the value of a key, or of the name if the key is missing.
+    /// Returns the position of the value of a key. If the key is missing, returns the position of
+    /// the name.
     #[must_use]
     pub fn span(&self, key: &str) -> Range<usize> {
         self.value(key).unwrap_or_else(|| self.name_span())
@@ -59,7 +61,8 @@ impl Entry {
             .map(|(_, span)| span.clone())
     }
 
-    /// Position of the value of the first of these keys that is given, or otherwise of the name.
+    /// Returns the position of the value of the first of these keys that is given. If none of these
+    /// keys is given, returns the position of the name.
     #[must_use]
     pub fn first_of(&self, keys: &[&str]) -> Range<usize> {
         let given = keys.iter().find_map(|key| self.value(key));
@@ -123,8 +126,9 @@ impl SourceMap {
         self.elements().find(|entry| entry.name == name)
     }
 
-    /// Position of the value of a key of a section. If the key is missing, it is the position of
-    /// the section header, or of `[scene]`.
+    /// Returns the position of the value of a key of a section. If the key is missing, returns the
+    /// position of the section header. If the section is missing, returns the position of
+    /// `[scene]`.
     #[must_use]
     pub fn section(&self, section: &str, key: &str) -> Range<usize> {
         self.sections

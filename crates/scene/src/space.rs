@@ -17,13 +17,13 @@ fn other(here: &str, holds: [(&'static str, bool); 2]) -> Option<&'static str> {
     others.find_map(|(name, holds)| holds.then_some(name))
 }
 
-/// Space, different from this one, whose vectors have this number of components.
+/// Returns the name of a space other than `here` whose vectors have this number of components.
 pub(crate) fn of_length(here: &str, length: usize) -> Option<&'static str> {
     let has = [(Plane::NAME, Plane::DIM), (Space3::NAME, Space3::DIM)];
     other(here, has.map(|(name, dim)| (name, dim == length)))
 }
 
-/// Space, different from this one, that has this type of joints or forces.
+/// Returns the name of a space other than `here` that has this type of joints or forces.
 pub(crate) fn of_type(here: &str, registry: &Registry, name: &str) -> Option<&'static str> {
     fn has<S: SceneSpace>(registry: &Registry, name: &str) -> (&'static str, bool) {
         let of = S::definitions(registry);
@@ -68,7 +68,7 @@ pub(crate) trait SceneSpace: BodySpace {
     const COORDINATES: &'static [BodyCoordinate];
 
     /// Whether directions may be given in ground axes (`frame = "global"`), and whether directions
-    /// on the second body are given in the axes of the first one.
+    /// on the second body are given in the axes of the first body.
     const CARRIES: bool;
 
     /// Converts the description to the type for programs that accept both spaces.

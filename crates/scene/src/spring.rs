@@ -30,7 +30,7 @@ const FREE_ANGLE: Key = Key::optional("free_angle", "a number", Takes::Number(In
 /// Keys of such a spring, except its name and its type.
 pub(crate) const KEYS: [Key; 5] = [OF, MEASURE, STIFFNESS, DAMPING, FREE_ANGLE];
 
-/// Returns whether this force is such a spring.
+/// Returns whether the table describes a spring on the angle of a joint.
 pub(crate) fn is_meant<S: SceneSpace>(table: &Table) -> bool {
     S::KIND == SpaceKind::Space3 && table.peek(TYPE) == Some(SPRING)
 }

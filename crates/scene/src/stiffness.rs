@@ -1,4 +1,5 @@
-//! `centre_of_stiffness`: the point about which the moment of a joint gives way.
+//! `centre_of_stiffness`: the point about which the bodies of a joint rotate elastically under a
+//! moment.
 
 use model::{BodyRef, SpaceKind};
 
@@ -8,12 +9,13 @@ use crate::key::Key;
 use crate::space::SceneSpace;
 use crate::table::Table;
 
-/// The point about which the moment of a joint gives way, in bounds and for elastic supports.
+/// The point about which the bodies of a joint rotate elastically under a moment. It is used in
+/// bounds and for elastic supports.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CentreOfStiffness {
     /// Name of the joint.
     pub joint: String,
-    /// The last body of the joint, which carries the point.
+    /// The last body of the joint. The point is fixed to this body.
     pub body: BodyRef,
     /// The point in the frame of this body, or of the ground (m).
     pub point: [f64; 3],
@@ -30,7 +32,7 @@ pub(crate) const fn key(space: SpaceKind) -> Key {
     )
 }
 
-/// Reads the key of a joint between these bodies, if they are known.
+/// Reads the key of a joint between these bodies, if the bodies are known.
 pub(crate) fn read<S: SceneSpace>(
     table: &mut Table,
     name: &str,

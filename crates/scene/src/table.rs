@@ -1,4 +1,4 @@
-//! A table of the file. The table records which keys were read; the others are unknown keys.
+//! A table of the file. The table records which keys were read; all other keys are unknown.
 
 use std::borrow::Cow;
 use std::fmt::Display;
@@ -58,7 +58,7 @@ impl<'t> Table<'t> {
     }
 
     /// Adds the keys of both spaces, each with the name of its space. If the table contains a key
-    /// of the other space, the report names this space.
+    /// of the other space, the report contains the name of that space.
     pub(crate) fn spaces(&mut self, keys: impl Iterator<Item = (&'static str, &'static str)>) {
         self.by_space.extend(keys);
     }
@@ -113,8 +113,8 @@ impl<'t> Table<'t> {
         self.of_key(key)?.boolean()
     }
 
-    /// Reads the list of a key; empty if the key is missing or its value is not a list, which is
-    /// reported.
+    /// Reads the list of a key. The result is empty if the key is missing or its value is not a
+    /// list; a value that is not a list is reported.
     pub(crate) fn items(&mut self, key: &Key) -> Vec<Field<'t>> {
         let field = self.of_key(key);
         let items = field.and_then(|field| field.items(key.expected));
@@ -135,8 +135,8 @@ impl<'t> Table<'t> {
         field
     }
 
-    /// Reports that a key is missing. If a similar unknown key is found later, its misspelling is
-    /// reported in place of this problem.
+    /// Reports that a key is missing. If a similar unknown key is found later, the misspelling of
+    /// that key is reported in place of this problem.
     pub(crate) fn lacks(
         &mut self,
         key: &'static str,
@@ -156,8 +156,8 @@ impl<'t> Table<'t> {
         self.findings.error(Mistake::Missing, at, message, label);
     }
 
-    /// Reports two values that must not be given together, each with its label; `ways` contains
-    /// their keys.
+    /// Reports two values that must not be given together, each with its label. `ways` contains the
+    /// keys of the values.
     pub(crate) fn exclusive(&self, ways: impl Display, values: [(Range<usize>, &str); 2]) {
         let message = format!("{} takes {ways}, not both", self.subject);
         let [(first, of_first), (second, of_second)] = values;
@@ -215,7 +215,7 @@ impl<'t> Table<'t> {
         value.map_or_else(|| self.header.clone(), toml::Spanned::span)
     }
 
-    /// Reports unknown keys. If an unknown key is similar to a missing key, the two are reported
+    /// Reports unknown keys. If an unknown key is similar to a missing key, both keys are reported
     /// together.
     pub(crate) fn close(self) {
         let known = || self.known.iter().copied();

@@ -2,7 +2,7 @@
 //! rest of the text does not change. Therefore [`read`](crate::read()) checks the result like any
 //! other scene, with the same line numbers.
 //!
-//! The caller chooses the values; this module does not check them.
+//! The caller chooses the values. This module does not check the values.
 
 mod key;
 mod rest;
@@ -31,8 +31,8 @@ const WHOLE: f64 = 9_007_199_254_740_992.0;
 /// A key is the name of a parameter, or a path: `body.platform.mass`, `joint.H.axis[0]`,
 /// `drive.steer.motion.steps[0].by`, `scene.gravity[1]`, `simulate.rtol`. Named items are selected
 /// by their names or by `[0]`, `[1]`, …; entries of lists are 0-based. If a key is missing in the
-/// text, it is added to its table, which must exist; parameters are not added. The key `active`
-/// counts as a number, and zero means false.
+/// text, it is added to its table. The table must exist, and parameters are not added. The key
+/// `active` counts as a number, and zero means false.
 ///
 /// ```
 /// let text = "[scene]\nname = \"drop\"\n[[body]]\nname = \"bob\"\nmass = 1.0 # kg\n";
@@ -49,7 +49,8 @@ const WHOLE: f64 = 9_007_199_254_740_992.0;
 #[derive(Clone, Debug)]
 pub struct Template {
     text: String,
-    /// The positions of the numbers in the order of the text, each with the index of its key.
+    /// The positions of the numbers, in the order of the text. Each position has the index of its
+    /// key.
     slots: Vec<(usize, Slot)>,
 }
 
@@ -134,7 +135,7 @@ impl Template {
         self.filled(&texts)
     }
 
-    /// Returns the text with these numbers or expressions, in the order of the keys; expressions
+    /// Returns the text with these numbers or expressions, in the order of the keys. Expressions
     /// require a scene of format 2.
     ///
     /// ```

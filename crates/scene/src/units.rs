@@ -1,5 +1,5 @@
 //! Explains numbers with units in values for which the format does not permit units. The advice
-//! contains the value in the units of the format, which the author can copy.
+//! contains the value in the units of the format. The author can copy this value.
 
 use linalg::Dd;
 
@@ -14,7 +14,8 @@ pub struct WithUnit<'a> {
     pub number: f64,
     /// The unit in the form given in the text.
     pub unit: &'a str,
-    /// The dimension of the value `number` times [`Self::factor`], which is in SI units.
+    /// The dimension of the number. The product of `number` and [`Self::factor`] is the value in SI
+    /// units.
     dimension: Dimension,
     factor: Dd,
 }
@@ -107,7 +108,8 @@ pub(crate) fn is_number(text: &str) -> bool {
     text.ends_with(digits) && text.contains(digits) && text.replace('_', "").parse::<f64>().is_ok()
 }
 
-/// A finite number in SI, or a number with a unit of the same dimension.
+/// Returns the value in SI of a text that contains a finite number in SI, or a number with a unit
+/// of the same dimension.
 ///
 /// ```
 /// use pfaff_scene::in_si;
@@ -151,7 +153,8 @@ mod tests {
             let said = advice(text).unwrap_or_default();
             assert!(said.ends_with(expected), "{text}: {said}");
         }
-        // For an unknown unit, the advice contains only the rule, because its factor is not known.
+        // For an unknown unit, the advice contains only the rule, because the factor of the unit is
+        // not known.
         let rule =
             "numbers are in SI units and radians, or in quotes with `format = 2` in `[scene]`";
         assert_eq!(advice("3 furlongs").as_deref(), Some(rule));

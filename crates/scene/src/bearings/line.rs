@@ -15,7 +15,7 @@ pub(super) struct Axis {
     pub(super) along: [f64; 3],
 }
 
-/// Position of an axis relative to another one.
+/// Position of an axis relative to another axis.
 pub(super) struct Offset {
     /// Distance of the point of the second axis from the first axis (m).
     pub(super) distance: f64,
@@ -25,7 +25,7 @@ pub(super) struct Offset {
     pub(super) is_reversed: bool,
 }
 
-/// Prints the larger part of the offset, between the names of both axes.
+/// Prints the larger part of the offset, as words that stand between the names of both axes.
 impl fmt::Display for Offset {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         if self.sine < MEETING {
@@ -41,7 +41,7 @@ impl fmt::Display for Offset {
 }
 
 impl Axis {
-    /// Returns the offset of another axis from this one.
+    /// Returns the offset of another axis from this axis.
     pub(super) fn offset(&self, other: &Self) -> Offset {
         let apart = minus(other.point, self.point);
         Offset {

@@ -1,5 +1,6 @@
-//! The bodies on which a wheel turns about the axis of its bearing. These are the other body of the
-//! bearing, and all bodies that joints with the same axis connect with it.
+//! Finds the bodies on which a wheel turns about the axis of its bearing. These bodies are the
+//! other body of the bearing, and all bodies that joints with the same axis connect to this other
+//! body.
 
 use joints::space3::Axes;
 use model::BodyRef;
@@ -15,7 +16,7 @@ use crate::joint_read::{JointKind, JointRead};
 use crate::limits::MEETING;
 use crate::space::SceneSpace;
 
-/// Point and axis of a bearing on one of its bodies.
+/// Point and axis of a bearing on one body of the bearing.
 #[derive(Clone, Copy)]
 pub(super) struct Seat {
     pub(super) body: BodyRef,
@@ -56,14 +57,14 @@ pub(super) struct Bearing<'a> {
     pub(super) sides: [Seat; 2],
 }
 
-/// Why there are no two wheels on one carrier.
+/// Reason why there are no two wheels on one carrier.
 pub(super) struct Refusal {
     pub(super) what: String,
     pub(super) label: &'static str,
 }
 
 impl<'a> Bearing<'a> {
-    /// Returns the bearing, or `None` if not all values of the joint could be read.
+    /// Returns the bearing of a joint. Returns `None` if a value of the joint could not be read.
     pub(super) fn of<S: SceneSpace>(joint: &'a JointRead<S>) -> Result<Option<Self>, Refusal> {
         let parameters = match joint.kind {
             JointKind::Unknown => return Ok(None),
@@ -117,19 +118,19 @@ fn parameters<S: SceneSpace>(definition: &ConstraintDefinition<S>) -> Option<[[u
     Some([of(0)?, of(1)?])
 }
 
-/// A body on which a wheel turns, with the axis of its bearing on this body.
+/// A body on which a wheel turns, with the axis of the bearing on this body.
 struct Carrier {
     seat: Seat,
-    /// The side of the bearing that is the wheel: the body that is farther from this one, counted
-    /// in joints. `None` if both bodies are equally far away.
+    /// The side of the bearing that is the wheel. The wheel is the body of the bearing with more
+    /// joints between it and this carrier. `None` if both bodies are equally far away.
     wheel: Option<usize>,
 }
 
-/// The joints that connect two bearings with bodies on which their wheels turn.
+/// The joints that connect two bearings to the bodies on which the wheels turn.
 pub(super) struct Train<'a, 'j, 'r, S: SceneSpace> {
     references: &'a References<'a, 'j, 'r, S>,
     bearings: [Bearing<'j>; 2],
-    /// The size of the wheels (m), with which distances between axes are compared.
+    /// The size of the wheels (m). Distances between axes are compared with this size.
     size: f64,
 }
 
@@ -239,8 +240,8 @@ impl<'a, 'j, 'r, S: SceneSpace> Train<'a, 'j, 'r, S> {
         names.join(" and ")
     }
 
-    /// The bodies on which the wheel of bearing `k` turns, from the nearest to the farthest; the
-    /// search ends at `last`.
+    /// Returns the bodies on which the wheel of bearing `k` turns, from the nearest to the
+    /// farthest. The search ends at `last`.
     fn carriers(&self, k: usize, last: Option<BodyRef>) -> Vec<Carrier> {
         let own = &self.bearings[k];
         let mut found: Vec<_> = [0, 1]
@@ -285,8 +286,8 @@ impl<'a, 'j, 'r, S: SceneSpace> Train<'a, 'j, 'r, S> {
         offset.sine < MEETING && offset.distance <= MEETING * self.size
     }
 
-    /// The bearings of a body: the name, and the seats on this body and on the other one. An active
-    /// mesh uses only active joints.
+    /// Returns the bearings of a body. Each bearing has a name, a seat on this body and a seat on
+    /// the other body. An active mesh uses only active joints.
     fn joints(&self, body: BodyRef) -> impl Iterator<Item = (&'j str, [Seat; 2])> {
         let is_active = self.references.is_active;
         let all = self.references.joints.of_body(body).iter();
@@ -311,9 +312,10 @@ impl<'a, 'j, 'r, S: SceneSpace> Train<'a, 'j, 'r, S> {
         self.references.joints.all().iter().any(is_unread)
     }
 
-    /// Names the joint whose axis is nearest to the axis of one of the bearings `of`, of those
-    /// joints that would make the wheel turn on one of the bodies `ends` if they had this axis.
-    /// Empty if there is no such joint.
+    /// Returns a text that names the joint with the axis nearest to the axis of one of the bearings
+    /// `of`. The function considers only joints that would connect the wheel to one of the bodies
+    /// `ends` if the joints had the axis of the bearing. The text is empty if there is no such
+    /// joint.
     fn miss(&self, of: &[usize], ends: impl Fn(usize) -> Vec<BodyRef>) -> String {
         let mut misses = Vec::new();
         for &k in of {
@@ -341,8 +343,8 @@ impl<'a, 'j, 'r, S: SceneSpace> Train<'a, 'j, 'r, S> {
     }
 }
 
-/// The largest distance between the points of two bearings, and of these points from the centres of
-/// mass of their bodies.
+/// Returns the largest of the following distances: between the points of the two bearings, and
+/// between these points and the centres of mass of their bodies.
 fn size<S: SceneSpace>(bearings: &[Bearing; 2], bodies: &Bodies<S>) -> f64 {
     let [first, second] = bearings.each_ref().map(|bearing| {
         let [Seat { body, point, .. }, _] = bearing.sides;

@@ -42,8 +42,8 @@ pub(crate) const MATRIX: Key = Key::optional("matrix", MATRIX_EXPECTED, Takes::T
 
 const MATRIX_EXPECTED: &str = "a rotation matrix of three rows";
 
-/// Largest relative difference between a quaternion or a matrix and a rotation for which there is
-/// no warning. Entries with two digits are accurate to 1e-2.
+/// Largest relative difference between a quaternion or a matrix and a rotation. Above this
+/// difference there is a warning. Entries with two digits are accurate to 1e-2.
 const ROUGH: f64 = 1e-2;
 
 /// Reads an orientation; the result is a quaternion (w, x, y, z) of any length.
@@ -157,7 +157,7 @@ fn rotation(field: &Field) -> Option<[f64; 4]> {
     None
 }
 
-/// Warns about numbers that do not form an exact rotation; the nearest rotation is used.
+/// Warns about numbers that do not form an exact rotation. The nearest rotation is used.
 fn warn_of_rough(field: &Field, off: f64, what: &str) {
     if off > ROUGH {
         field.findings.warning(

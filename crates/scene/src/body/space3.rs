@@ -101,8 +101,8 @@ fn tensor(field: &Field) -> Option<[[f64; 3]; 3]> {
     if items.iter().any(|row| row.value.get_ref().is_array()) {
         return field.matrix(INERTIA.expected, INERTIA.unit);
     }
-    // The value is not read with `vector`, because a list of another length does not indicate the
-    // other space here.
+    // The value is not read with `vector`, because here a list of another length does not indicate
+    // a scene in the plane.
     let moments = field.numbers(3, INERTIA.expected, |_| INERTIA.unit)?;
     let [x, y, z]: [f64; 3] = moments.try_into().ok()?;
     for (moment, item) in [x, y, z].iter().zip(&items) {

@@ -19,13 +19,13 @@ pub(crate) struct Quantity {
     pub(crate) value: Dd,
     /// Upper bound on the error of the value.
     pub(crate) error: f64,
-    /// The dimension; `None` for a bare number, which gets the dimension of its key.
+    /// The dimension. `None` for a bare number, which gets the dimension of its key.
     pub(crate) dimension: Option<Dimension>,
-    /// Whether the value contains π; if so, and if it is an angle, it is in radians.
+    /// Whether the value contains π. An angle that contains π is in radians.
     pub(super) has_pi: bool,
 }
 
-/// The factors of bare numbers, which follow from the units that a scene chooses.
+/// The factors that convert bare numbers to SI. They follow from the units that a scene chooses.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Bases {
     pub(crate) length: Dd,
@@ -65,7 +65,7 @@ fn pi() -> Dd {
     Dd::from_sum(PI, 1.224_646_799_147_353_2e-16)
 }
 
-/// Largest integer power that is computed as a product; other powers are computed in doubles.
+/// Largest integer power that is computed as a product. Other powers are computed in doubles.
 const MOST_FACTORS: i32 = 64;
 
 impl Quantity {
@@ -86,7 +86,8 @@ impl Quantity {
         }
     }
 
-    /// The unit `times/over` of this dimension; half a revolution is π with both parts of the sum.
+    /// Returns the unit of size `times/over` and of this dimension. Half a revolution is π as the
+    /// sum of two doubles.
     pub(crate) fn unit(times: f64, over: f64, dimension: Dimension) -> Self {
         let times = if times == PI { pi() } else { times.into() };
         Self {
@@ -122,8 +123,8 @@ impl Quantity {
         }
     }
 
-    /// Returns this value as the result of an operation with another number; the result contains π
-    /// if one of the two does.
+    /// Returns this value as the result of an operation with another number. The result contains π
+    /// if this value or the other number contains π.
     fn with(self, other: Self) -> Self {
         Self {
             has_pi: self.has_pi || other.has_pi,
@@ -307,8 +308,8 @@ impl Quantity {
     }
 }
 
-/// Returns the dimension of the product with the power ±1 of the other factor; bare factors count
-/// as dimensionless.
+/// Returns the dimension of the product of a quantity of dimension `a` and the power ±1 of a
+/// quantity of dimension `b`. Bare factors count as dimensionless.
 fn dimension_of(a: Option<Dimension>, b: Option<Dimension>, power: i8) -> Option<Dimension> {
     let has_one = a.is_some() || b.is_some();
     let [a, b] = [a, b].map(|d| d.unwrap_or(Dimension::NONE));
@@ -341,8 +342,8 @@ fn whole_power(q: Quantity, n: i32) -> Quantity {
     }
 }
 
-/// Returns the value as a sum of two doubles. Near the ends of the range of doubles, where the
-/// second one does not exist, the result is the plain double.
+/// Returns the value as a sum of two doubles. Near the ends of the range of doubles, the second
+/// double does not exist, and the result is the plain double.
 fn or_plain(value: Dd, plain: f64) -> Dd {
     if value.hi().is_finite() && value.lo().is_finite() {
         value

@@ -33,8 +33,8 @@ pub(super) enum LawTerm {
 #[derive(Clone)]
 pub(super) struct Variable {
     dimension: Option<Dimension>,
-    /// Whether the value is computed from bare numbers and functions such as `sin` only. Then it
-    /// has no dimension and takes that of its key, like a bare number.
+    /// Whether the value is computed only from bare numbers and functions such as `sin`. Such a
+    /// value has no dimension and gets the dimension of its key, like a bare number.
     is_bare: bool,
     /// Whether the value contains π and has no unit of an angle; see [`Quantity`].
     has_pi: bool,
@@ -107,8 +107,8 @@ fn refused(text: &str, error: &LawError) -> Fault {
         LawError::Deep => Problem::Deep {
             most: super::DEEPEST,
         },
-        // Other errors do not occur: operands come before their operations, and the variables are
-        // those of the caller.
+        // Other errors do not occur: operands come before their operations, and all variables come
+        // from the caller.
         _ => Problem::Empty,
     };
     let span = 0..text.len();
@@ -226,7 +226,7 @@ impl LawTerm {
             None => [self.bare(bases)?, other.bare(bases)?],
         };
         for factor in &mut factors {
-            // With a unit of an angle, as in `pi*t*rad`, the angle is in radians.
+            // If the term has a unit of an angle, as in `pi*t*rad`, the angle is in radians.
             factor.has_pi &= !is_angular;
         }
         Ok(joined(factors, join, of.map(|(a, b)| a.times(b, power))))

@@ -6,7 +6,7 @@ use std::f64::consts::{E, FRAC_PI_2, FRAC_PI_4, FRAC_PI_6, LN_10, PI, SQRT_2};
 use super::token::LONGEST;
 use super::*;
 
-/// Parameters by name, and the units of bare numbers.
+/// The parameters by name, and the units of bare numbers.
 struct Names(BTreeMap<&'static str, Option<Quantity>>, Bases);
 
 impl Scope for Names {

@@ -19,7 +19,7 @@ pub(crate) enum Token<'s> {
     End,
 }
 
-/// Longest text (bytes), because its tokens need about 40 times as much memory.
+/// Longest text (bytes). The tokens of a text need about 40 times as much memory as the text.
 pub(super) const LONGEST: usize = 1 << 14;
 
 /// Returns all tokens with their positions; the last token is the end.
@@ -78,24 +78,25 @@ pub(crate) fn tokens(text: &str) -> Result<Vec<(Token<'_>, Range<usize>)>, Fault
     Ok(found)
 }
 
-/// Position of the reader relative to a unit term, in which names are never parameters. A unit term
-/// is the unit after a number, and the `*`, `/` and `^` with units and exponents that follow it
-/// without a blank, as in `0.4 N*s/mm`.
+/// Position of the reader relative to a unit term. Names in a unit term are never parameters. A
+/// unit term starts with the unit after a number. It continues with `*`, `/`, `^`, units and
+/// exponents that follow without a blank, as in `0.4 N*s/mm`.
 #[derive(Clone, Copy, PartialEq)]
 enum UnitTerm {
     Outside,
-    /// After a number, where a unit starts a unit term.
+    /// After a number. A unit at this position starts a unit term.
     Number,
     /// After a unit or its exponent.
     Unit,
-    /// After `*` or `/`, where a unit continues the unit term.
+    /// After `*` or `/`. A unit at this position continues the unit term.
     Factor,
-    /// After `^`, where an exponent continues the unit term.
+    /// After `^`. An exponent at this position continues the unit term.
     Power,
 }
 
 impl UnitTerm {
-    /// The position after another token, which may follow `close` to the token before it.
+    /// Returns the position after another token. `close` states that there is no blank between this
+    /// token and the preceding token.
     fn after(self, token: Token, close: bool) -> Self {
         match (self, token) {
             (Self::Power, Token::Number(_)) if close => Self::Unit,
@@ -163,7 +164,7 @@ fn number_length(text: &str) -> usize {
 const DIGITS: usize = 30;
 
 /// Reads a decimal number as the sum of two doubles: the nearest double, and the remaining
-/// difference. `text` is a number of a file or of an expression; for any other text the result is
+/// difference. `text` is a number of a file or of an expression. For any other text, the result is
 /// NaN.
 pub(crate) fn decimal(text: &str) -> Dd {
     let text = text.replace('_', "");

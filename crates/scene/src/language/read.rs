@@ -44,8 +44,8 @@ fn angles() -> Vec<&'static str> {
     names_of(Dimension::ANGLE)
 }
 
-/// Largest number of unfit names whose uses are recognised, because each error in an expression is
-/// compared with all of them.
+/// Largest number of unfit names whose uses are recognised. The number is limited because each
+/// error in an expression is compared with all of these names.
 const UNFIT: usize = 100;
 
 impl Language {
@@ -98,7 +98,8 @@ impl Language {
         language
     }
 
-    /// Reads the parameters; each parameter is read after those that its expression contains.
+    /// Reads the parameters. Each parameter is read after the parameters that its expression
+    /// contains.
     fn parameters(&mut self, field: &Field) {
         let Some(table) = field.table("one table `[parameters]`") else {
             return;
@@ -175,7 +176,7 @@ enum Fitness {
     Unfit,
 }
 
-/// Reports each cycle of parameters once. Parameters that are not in a cycle, but refer to one, are
+/// Reports each cycle of parameters once. Parameters outside of a cycle that refer to the cycle are
 /// not reported.
 fn report_circles(list: &[Parameter], needs: &[Vec<(usize, Range<usize>)>], waits: &[usize]) {
     // Zero for a parameter that has not been visited; otherwise the number of the search that

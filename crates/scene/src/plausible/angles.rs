@@ -1,4 +1,4 @@
-//! Detects angles without a unit that are probably in degrees.
+//! Finds angles without a unit that were probably intended in degrees.
 
 use std::f64::consts::TAU;
 
@@ -9,8 +9,8 @@ use crate::dimension::Dimension;
 use crate::expression::Quantity;
 use crate::language::Language;
 
-/// Angles in degrees are usually multiples of this number; angles in radians are multiples of it
-/// only by chance.
+/// Angles in degrees are usually multiples of this number. Angles in radians are multiples of this
+/// number only by chance.
 const ROUND_DEGREES: f64 = 5.0;
 
 /// Smallest number that counts as degrees; smaller numbers may be angles in radians within about

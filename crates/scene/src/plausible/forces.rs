@@ -1,5 +1,5 @@
 //! Checks forces against the weight of the mechanism, and springs against their free length. Each
-//! of the two is one warning for a scene, which names the first force.
+//! check gives at most one warning for a scene, and the warning names the first force.
 
 use joints::spec::Unit;
 use model::codes::Code;

@@ -1,6 +1,6 @@
-//! Checks that need the whole mechanism: moments of inertia that contradict mass and size, bodies
-//! without a joint, distant joints, and wheels that turn on another body than the carrier of their
-//! mesh.
+//! Checks that need the whole mechanism. They find moments of inertia that contradict mass and
+//! size, bodies without a joint, distant joints, and wheels that do not turn on the carrier of
+//! their mesh.
 
 use std::collections::HashMap;
 
@@ -24,10 +24,10 @@ const LARGEST_GYRATION: f64 = 20.0;
 /// is read as kg·mm².
 const SMALLEST_GYRATION: f64 = 1e-3;
 
-/// A ball with the same mass and inertia has a density. Above this density (kg/m³), a body does not
-/// consist of any real material. Osmium has 2.3e4. If the inertia of a wheel in kg·m² is read as
-/// kg·mm², a density of 1e2 becomes 1e11. A point mass of 1 kg with a nominal inertia of 1e-6 kg·m²
-/// has 6e7.
+/// Density (kg/m³) above which a body does not consist of any real material. The density of a body
+/// is the density of a ball with the same mass and inertia. The density of osmium is 2.3e4. If the
+/// inertia of a wheel in kg·m² is read as kg·mm², a density of 1e2 becomes 1e11. A point mass of 1
+/// kg with a nominal inertia of 1e-6 kg·m² has a density of 6e7.
 const DENSEST: f64 = 1e9;
 
 /// Fraction of the size of the mechanism below which the radius of gyration of a body is small.
@@ -218,7 +218,7 @@ fn far(
     }
 }
 
-/// Warns about a planar mesh with a wheel that turns on other bodies than the carrier of the mesh.
+/// Warns about a planar mesh with a wheel that does not turn on the carrier of the mesh.
 fn carriers(
     records: &[BodyRecord],
     joints: &[JointPoints],
@@ -314,7 +314,7 @@ fn inertia(
             dense(body, entry, size, unit, findings);
             continue;
         }
-        // For distant points, there is another warning.
+        // There is a separate warning for distant points.
         let near = shape.arms().filter(|arm| *arm <= FARTHEST * size);
         let arm = near.fold(0.0, f64::max);
         let Some(radius) = gyration(body).filter(|_| arm > 0.0) else {

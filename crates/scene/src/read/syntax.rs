@@ -1,4 +1,4 @@
-//! Explains why a text is not valid TOML, from a guess of the intended text.
+//! Explains why a text is not valid TOML. The explanation is based on a guess of the intended text.
 
 use std::ops::Range;
 
@@ -8,7 +8,7 @@ use crate::units;
 
 /// Reports that a text is not valid TOML, with one error for each line. An error at the end of the
 /// text means that a bracket is not closed. Only the first error contains a position; the other
-/// errors may be consequences of it.
+/// errors may be consequences of the first error.
 pub(super) fn report(errors: &[toml::de::Error], findings: &Findings) {
     let text = findings.source.text();
     let end = text.trim_end().len();
@@ -97,7 +97,7 @@ fn fault(text: &str, span: Range<usize>) -> Option<Explanation> {
     })
 }
 
-/// Explains the error in a line that is not valid from this position on, and suggests a text.
+/// Explains an error in a line and suggests a text. The line is not valid after the position `at`.
 /// `computes` is true if texts are expressions.
 fn meant(line: &str, at: usize, computes: bool) -> Option<(&'static str, String)> {
     if line.starts_with('[') && is_key(line.trim_matches(['[', ']', ' '])) {
@@ -311,8 +311,8 @@ mod tests {
         assert_eq!(fault.span.start, text.find("[0.0").expect("there"));
         assert!(never_closed("[[body]]\n", 0).is_none());
         assert_eq!(open_brackets("keep = [\"a]\", # ]"), (vec![7], 0));
-        // If two brackets are open, the result is the inner one; if the inner one is closed in a
-        // later line, it is the outer one.
+        // If two brackets are open, the result is the inner bracket. If the inner bracket is closed
+        // in a later line, the result is the outer bracket.
         assert_eq!(open_bracket("a = [\n [1,\n", 11), Some(7));
         assert_eq!(open_bracket("a = [\n [1,\n 2],\n", 16), Some(4));
     }

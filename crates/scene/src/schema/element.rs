@@ -1,5 +1,5 @@
-//! The schema of joints and forces: one table for each definition of the registry and each form of
-//! its bodies and its reference point.
+//! The schema of joints and forces. There is one table for each definition of the registry, each
+//! form of its bodies and each form of its reference point.
 
 use joints::spec::{Parameter, Shape, Spec, Unit};
 use model::Definitions;
@@ -281,7 +281,7 @@ fn in_bodies<S: SceneSpace>(spec: &Spec, owners: &[usize]) -> Value {
     })
 }
 
-/// Schema of the value of a parameter: its purpose and its type.
+/// Schema of the value of a parameter: purpose and type of the parameter.
 fn value<S: SceneSpace>(parameter: &Parameter, spec: &Spec) -> Value {
     let mut schema = match parameter.shape {
         Shape::Point { .. } => reference(&name_in::<S>("point")),

@@ -78,8 +78,8 @@ impl SceneSpace for Space3 {
     ) -> [f64; 3] {
         const GROUND: [f64; 4] = [1.0, 0.0, 0.0, 0.0];
         let [from, to] = [from, to].map(|body| body.map_or(GROUND, |body| body.orientation));
-        // For equal axes, the direction is returned without a transformation, which would add
-        // rounding errors.
+        // If the axes are equal, the direction is returned without a transformation, because a
+        // transformation would add rounding errors.
         if from == to {
             return direction;
         }

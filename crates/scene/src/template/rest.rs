@@ -91,8 +91,8 @@ fn list(items: impl Iterator<Item = String>) -> String {
     format!("[{}]", items.collect::<Vec<_>>().join(", "))
 }
 
-/// Writes a number with its SI unit, if the unit `bare` of bare numbers in the scene is another
-/// one.
+/// Writes a number with its SI unit, if the unit `bare` of bare numbers in the scene is not the SI
+/// unit.
 fn with_unit(x: f64, bare: &str, si: &str) -> String {
     if bare == si {
         number(x)

@@ -22,8 +22,9 @@ pub struct RetypedJoint {
     pub directions: Vec<(&'static str, Vec<f64>)>,
 }
 
-/// Returns the text of a scene in which joints have other types, or `None` if it is not TOML or
-/// does not contain a joint. Bodies and points do not change. Comments are removed.
+/// Returns the text of a scene in which joints have other types. Returns `None` if the text is not
+/// TOML or does not contain one of the joints. Bodies and points do not change. Comments are
+/// removed.
 ///
 /// ```
 /// use model::Registry;
@@ -47,7 +48,7 @@ pub fn retyped(text: &str, joints: &[&RetypedJoint]) -> Option<String> {
     let mut root: Table = is_small.then(|| text.parse().ok())??;
     for change in joints {
         let table = joint(&mut root, &change.joint)?;
-        // With `frame`, the directions would be in other axes.
+        // If `frame` stayed in the table, the directions would be in other axes.
         if !change.directions.is_empty() && table.contains_key(direction::FRAME) {
             return None;
         }
