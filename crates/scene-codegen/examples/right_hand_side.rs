@@ -1,7 +1,9 @@
-//! Times of right-hand sides (q̇ and v̇) of scenes, interpreted and on generated code, one state at
-//! a time and in lanes, with the size of the code and the time of its compilation: `cargo run
-//! --release -p pfaff-scene-codegen --example right_hand_side -- examples/hexapod.toml`. The states
-//! belong to the run that the scene defines; each time is the smallest of several rounds.
+//! Measures the times of right-hand sides (q̇ and v̇) of scenes. Each right-hand side is
+//! interpreted and computed with generated code, for one state at a time and in lanes. The output
+//! also contains the size of the code and the time of its compilation:
+//! `cargo run --release -p pfaff-scene-codegen --example right_hand_side --
+//! examples/hexapod.toml`. The states belong to the run that the scene defines; each time is the
+//! smallest of several rounds.
 
 use std::fmt::Write as _;
 use std::hint::black_box;
@@ -17,12 +19,12 @@ use pfaff_scene_codegen::{Choices, Subject, generate};
 
 type Failure = Box<dyn std::error::Error>;
 
-/// Rounds over all states, of which the fastest counts: each round is shorter than a time slice of
-/// the scheduler.
+/// Number of rounds over all states. The time of the fastest round counts, because each round is
+/// shorter than a time slice of the scheduler.
 const ROUNDS: usize = 1000;
 
-/// The program that is compiled with the module `code`: it prints nanoseconds for one state, single
-/// and in 4 and 8 lanes.
+/// The program that is compiled with the module `code`. It prints the time for one state (ns):
+/// computed alone, in 4 lanes and in 8 lanes.
 const TIMER: &str = "
 use std::hint::black_box;
 use std::time::Instant;

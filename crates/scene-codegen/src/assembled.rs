@@ -5,8 +5,8 @@ use model::Registry;
 
 use crate::error::CodeError;
 
-/// The text of a scene with its name, the registry of joints, and the rows to treat as dependent in
-/// place of those in the scene.
+/// The text of a scene with its name, the registry of joints, and the rows to treat as dependent.
+/// These rows replace the rows that the scene states.
 pub(crate) struct SceneText<'a> {
     pub(crate) name: &'a str,
     pub(crate) text: &'a str,

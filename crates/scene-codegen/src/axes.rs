@@ -5,8 +5,8 @@
 //! constants, or arms and directions that are already computed.
 //!
 //! The columns and the rows of C are rotated, for any joints. Products that are zero, constant or
-//! already computed are detected by their values, up to rounding, at states that do not satisfy the
-//! constraints; there, functions of time have arbitrary values.
+//! already computed are found by their values, up to rounding. These values are computed at states
+//! that do not satisfy the constraints, with arbitrary values of the functions of time.
 
 use model::record::Input;
 use model::{BodyRef, Mechanism, SpaceKind, System};
@@ -42,9 +42,9 @@ impl Axes {
         })
     }
 
-    /// Returns for each body axes in which the rows of the joint that supports it are constant: the
-    /// axes of the first body of this joint. The supporting joints are those on the shortest paths
-    /// from the ground.
+    /// Returns axes for each body. In these axes, the rows of the joint that supports the body are
+    /// constant. They are the axes of the first body of this joint. The supporting joints are those
+    /// on the shortest paths from the ground.
     pub(crate) fn of_joints(e: &mut Equations, subject: &Subject<'_>) -> Option<Self> {
         let mechanism = &subject.prepared.mechanism;
         let carriers = carriers(mechanism);
@@ -88,7 +88,8 @@ impl Axes {
         })
     }
 
-    /// Returns whether the independent rows contain for each vector either all components or none.
+    /// Returns whether, for each vector, the independent rows contain either all components or no
+    /// component.
     pub(crate) fn keeps_vectors(&self, kept: &[usize]) -> bool {
         let all_or_none = |rows: &[usize; 3]| {
             let [first, others @ ..] = rows.map(|i| kept.contains(&i));
@@ -187,8 +188,8 @@ enum Carrier {
     First(BodyRef),
 }
 
-/// Returns the support of each body on the shortest paths from the ground; for bodies without a
-/// connection to the ground, paths start at the first of them.
+/// Returns the support of each body on the shortest paths from the ground. For bodies without a
+/// connection to the ground, the paths start at the first of these bodies.
 fn carriers(mechanism: &Mechanism) -> Vec<Carrier> {
     let n = mechanism.bodies().len();
     let mut found: Vec<Option<Carrier>> = vec![None; n];
@@ -229,7 +230,7 @@ fn carriers(mechanism: &Mechanism) -> Vec<Carrier> {
         .collect()
 }
 
-/// Returns the rotation from the axes of one body to those of another.
+/// Returns the rotation from the axes of one body to the axes of another body.
 fn relative(e: &mut Equations, to: usize, from: usize) -> Option<Matrix> {
     let [to, from] = [rotation(e, to)?, rotation(e, from)?].map(transposed);
     let code = &mut e.code;
@@ -257,7 +258,7 @@ fn pairs(a: [Value; 3], b: [Value; 3]) -> [(Value, Value); 3] {
     [0, 1, 2].map(|k| (a[k], b[k]))
 }
 
-/// Replaces three entries by the product of a matrix with them.
+/// Replaces three entries by the product of a matrix and these entries.
 fn turn(code: &mut SampledProgram, x: &mut [Value], at: [usize; 3], matrix: Matrix) {
     let of = at.map(|k| x[k]);
     for (k, row) in at.into_iter().zip(matrix) {

@@ -1,7 +1,7 @@
 //! Elimination of the independent rows as straight-line code. The order of the pivots is determined
-//! once, for all sampled states. A pivot must be large compared with its row and its column at
-//! every state; among these candidates, the one with the least fill is selected (Markowitz strategy
-//! with a threshold).
+//! once, for all sampled states. A candidate for a pivot must be large compared with its row and
+//! its column at every state. Among the candidates, the entry with the least fill is selected
+//! (Markowitz strategy with a threshold).
 //!
 //! Rows are given in axes in which few entries vary ([`crate::axes`]); masses, forces and results
 //! are in the axes of the equations.
@@ -32,7 +32,8 @@ use crate::sampled::SampledProgram;
 /// and of its column.
 const THRESHOLD: f64 = 0.1;
 
-/// Smallest permitted fraction; below it, no fixed order of elimination is suitable for the motion.
+/// Smallest permitted fraction. If no pivot reaches this fraction, no fixed order of elimination is
+/// suitable for the motion.
 const SMALLEST: f64 = 1e-3;
 
 /// A free motion is massless if at most this fraction of its mass remains after the elimination of
@@ -133,8 +134,8 @@ impl FactoredRows {
         Ok(factored)
     }
 
-    /// Returns the x with `rows·x = rhs` that is nearest to M⁻¹·force in the mass metric; for Q and
-    /// Γ, x are the accelerations.
+    /// Returns the solution x of `rows·x = rhs` that is nearest to M⁻¹·force in the mass metric.
+    /// For Q and Γ, x contains the accelerations.
     pub(crate) fn solve(
         &self,
         code: &mut SampledProgram,
@@ -166,7 +167,8 @@ impl FactoredRows {
         x
     }
 
-    /// Returns λ with `rowsᵀ·λ = excess` in the dependent coordinates, one multiplier for each row.
+    /// Returns the solution λ of `rowsᵀ·λ = excess` in the dependent coordinates. λ contains one
+    /// multiplier for each row.
     pub(crate) fn multipliers(&self, code: &mut SampledProgram, excess: &[Value]) -> Vec<Value> {
         let mut left = self.axes.forces_in(code, excess);
         let p = &mut code.program;
@@ -190,7 +192,7 @@ impl FactoredRows {
         lambda
     }
 
-    /// Returns the x with `rows·x = rhs` for which the free coordinates are zero.
+    /// Returns the solution x of `rows·x = rhs` for which the free coordinates are zero.
     fn particular(&self, code: &mut SampledProgram, rhs: &[Value]) -> Vec<Value> {
         let p = &mut code.program;
         let mut rhs = rhs.to_vec();
@@ -213,7 +215,7 @@ impl FactoredRows {
         x
     }
 
-    /// Returns for each free coordinate the motion of all coordinates.
+    /// For each free coordinate, returns the motion of all coordinates.
     fn null_frame(&self, code: &mut SampledProgram) -> Vec<Vec<Value>> {
         let p = &mut code.program;
         let (zero, one) = (p.number(0.0), p.number(1.0));
@@ -249,7 +251,7 @@ impl FactoredRows {
             })
             .collect();
         let k = self.free.len();
-        // The factors are computed row by row; `row` contains the row of L·D.
+        // The factors are computed row by row. `row` contains the current row of L·D.
         for i in 0..k {
             let mut row: Vec<Value> = (0..=i)
                 .map(|j| dot(code, &self.frame[i], &heavy[j]))
@@ -321,8 +323,8 @@ fn dot(code: &mut SampledProgram, a: &[Value], b: &[Value]) -> Value {
     code.sum(&products)
 }
 
-/// Returns the entry with the least fill among those that are sufficiently large at every state;
-/// constants are preferred.
+/// Returns the entry with the least fill among the entries that are sufficiently large at every
+/// state. Constants are preferred.
 fn best_pivot(
     code: &mut SampledProgram,
     rows: &[Vec<Value>],

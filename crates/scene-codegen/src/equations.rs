@@ -15,7 +15,7 @@ use symbolic::{Function, Graph, Program, Value};
 use crate::sampled::SampledProgram;
 use crate::subject::{State, Subject};
 
-/// Number of states that do not belong to the motion, at which equations are compared.
+/// Number of states at which equations are compared. These states do not belong to the motion.
 pub(crate) const ANYWHERE: usize = 8;
 
 /// The meaning of an input of the program.
@@ -96,7 +96,7 @@ impl Equations {
                 Source::Mechanism(Input::Function { .. }) | Source::Rhs(_) => shift(i, k),
                 Source::Mechanism(input) => subject.input(input, &state),
                 // The value in the described mechanism is used, because a property that is true for
-                // all values is also true for this one.
+                // all values is also true for this value.
                 Source::Number(n) => match subject.inputs.list[n].described {
                     0.0 => shift(i, k),
                     x => x * (1.0 + 0.5 * shift(i, k)),
@@ -181,7 +181,7 @@ pub(crate) fn anywhere(subject: &Subject<'_>, k: usize) -> State {
     State { t, q, v }
 }
 
-/// Returns values between −1 and 1 that do not correspond to any symmetry of a mechanism.
+/// Returns values between −1 and 1 that do not correspond to a symmetry of a mechanism.
 fn shift(i: usize, k: usize) -> f64 {
     (1.3 * (i + 1) as f64 + 2.3 * (k + 1) as f64).sin()
 }
@@ -220,8 +220,8 @@ fn number(
         .map_or_else(known, |v| Number::Input(*v))
 }
 
-/// Repeats the operations of an operation list in a program, which evaluates operations on
-/// constants; the values at some indices are inputs.
+/// Repeats the operations of an operation list in a program. The program evaluates operations on
+/// constants. The values at some indices are inputs.
 pub(crate) fn replay(
     code: &mut SampledProgram,
     recording: &RecordedEquations,

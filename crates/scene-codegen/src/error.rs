@@ -85,7 +85,7 @@ pub enum CodeError {
     /// A number of the scene cannot be an input.
     #[error(transparent)]
     Input(#[from] NotAnInput),
-    /// The scene is invalid if its inputs have other values.
+    /// The scene is invalid if the inputs have other values.
     #[error("the scene does not allow other values of {}: {reason}", keys.join(", "))]
     Varied {
         /// The keys of the inputs.
@@ -175,8 +175,8 @@ pub enum NotAnInput {
         "it moves a time at which a function of time is not smooth, and these times are constants of a module; generate code for each of its values"
     )]
     BreakTimes,
-    /// With other values of the number, the independent rows, which are fixed in a module, become
-    /// dependent.
+    /// With other values of the number, the independent rows become dependent. A module has fixed
+    /// independent rows.
     #[error("with it the kept rows depend on each other; choose the rows to drop with `--drop`")]
     Rows,
     /// The number does not occur in the equations.

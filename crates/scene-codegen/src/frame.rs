@@ -6,8 +6,8 @@
 //! The frame has no velocity; it is only rotated by the current angle θ of the body. Positions and
 //! velocities are rotated by −θ, and accelerations back by θ. Two rows that are the components x
 //! and y of one vector are rotated together. It is not possible to decide from the joints whether
-//! this rotation is permitted. Therefore C, Γ and Q after the rotation are compared with those of
-//! the rotated mechanism, up to rounding, at states far from any motion.
+//! this rotation is permitted. Therefore C, Γ and Q after the rotation are compared with C, Γ and Q
+//! of the rotated mechanism, up to rounding, at states far from any motion.
 
 use model::System;
 use model::record::Input;
@@ -17,8 +17,8 @@ use crate::equations::{ANYWHERE, Equations, Source, anywhere, replay, results};
 use crate::sampled::SampledProgram;
 use crate::subject::Subject;
 
-/// Largest difference between the rotated equations and those in the frame, as a fraction of the
-/// largest entry.
+/// Largest difference between the rotated equations and the equations in the frame, as a fraction
+/// of the largest entry.
 const SAME: f64 = 1e-10;
 
 /// A frame that is rotated by the angle θ relative to the ground.
@@ -153,7 +153,8 @@ impl FrameEquations {
         })
     }
 
-    /// Returns whether the independent rows contain for each vector either both components or none.
+    /// Returns whether, for each vector, the independent rows contain either both components or no
+    /// component.
     pub(crate) fn keeps_pairs(&self, kept: &[usize]) -> bool {
         let pairs = self.frame.rows.iter();
         pairs
@@ -215,8 +216,8 @@ fn inputs_in(e: &mut Equations, frame: &Frame, angle: usize) -> Option<Vec<Value
 }
 
 /// Returns whether the equations of a mechanism may be solved in the frame of the body whose angle
-/// has this index. C, Γ and Q in this frame must be equal to the rotated ones, also at states that
-/// violate the constraints.
+/// has this index. C, Γ and Q in this frame must be equal to the rotated C, Γ and Q, also at states
+/// that violate the constraints.
 pub(crate) fn may_be_seen_from(subject: &Subject<'_>, angle: usize) -> bool {
     let elsewhere = Subject {
         inputs: subject.inputs.clone(),

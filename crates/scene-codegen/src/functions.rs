@@ -20,7 +20,8 @@ pub(crate) const LIMIT: usize = 60_000;
 /// Largest number of bodies whose frames are tested.
 const VIEWS: usize = 12;
 
-/// The reference size of a divisor is at least this fraction of its median over the sampled states.
+/// The reference size of a divisor is at least this fraction of the median of the divisor over the
+/// sampled states.
 const OF_MEDIAN: f64 = 0.5;
 
 /// One function: straight-line code from inputs to outputs, and the relative sizes of its divisors.
@@ -44,8 +45,8 @@ pub(crate) struct Signature {
     /// Arguments after the time.
     pub(crate) arguments: &'static [(&'static str, &'static str)],
     pub(crate) out: (&'static str, &'static str),
-    /// Whether the function also returns a health value, the smallest relative size of the
-    /// divisors.
+    /// Whether the function also returns a health value. The health value is the smallest relative
+    /// size of the divisors.
     pub(crate) divides: bool,
 }
 
@@ -112,7 +113,7 @@ enum View {
     /// The equations use ground axes for translations. In space, the components of angular
     /// velocities are along the principal axes of the body.
     Ground,
-    /// In the plane: in the frame of the body whose angle has this index in q.
+    /// In the plane: the equations are in the frame of the body whose angle has this index in q.
     Angle(usize),
     /// In space: angular velocities are in ground axes.
     GroundAxes,
@@ -151,8 +152,8 @@ pub(crate) struct Functions {
 
 impl Functions {
     /// Generates the functions in the axes for which the accelerations need the fewest operations.
-    /// In space, it uses the axes for which the fewest sampled states are below the limit that runs
-    /// require.
+    /// In space, the function prefers the axes for which the health is below the limit of runs at
+    /// the fewest sampled states.
     pub(crate) fn new(subject: &Subject<'_>) -> Result<Self, CodeError> {
         recordable(&subject.prepared.mechanism)?;
         let functions = match subject.prepared.mechanism.space() {

@@ -3,7 +3,7 @@
 //! The scene is built with other values of the keys that the user wants to vary: each key alone,
 //! and all keys together. A key affects the recorded values that change: data of joints and forces,
 //! stored initial values, masses, gravity, principal axes, parameters of functions of time. These
-//! values are the inputs; they are identified by their indices in the recording. Values that are
+//! values are the inputs. They are identified by their indices in the recording. Values that are
 //! equal in all variants become one input.
 //!
 //! Choices that are not values of the equations cannot be inputs: the independent rows, the
@@ -153,8 +153,8 @@ impl<'s> Search<'s> {
         Ok(MechanismVariant { prepared, options })
     }
 
-    /// Returns a mechanism with the independent rows of the described one, if the two differ only
-    /// in their values.
+    /// Returns a mechanism with the independent rows of the described mechanism, if the two
+    /// mechanisms differ only in their values.
     fn compared(
         &self,
         other: &PreparedMechanism,
@@ -172,8 +172,8 @@ impl<'s> Search<'s> {
         }
     }
 
-    /// Returns the recording with one changed key; `None` if the scene is not valid when only this
-    /// key changes.
+    /// Returns the recording with one changed key. Returns `None` if the scene is not valid when
+    /// only this key changes.
     fn alone(
         &self,
         k: usize,
@@ -346,7 +346,8 @@ fn differ(all: &[&RecordedEquations], place: usize) -> bool {
     })
 }
 
-/// Returns the keys of the numbers in a list, or the key itself if it is not a list.
+/// Returns the keys of the numbers in a list. If the value of the key is not a list, returns the
+/// key itself.
 fn opened(text: &str, key: &str, depth: usize) -> Result<Vec<String>, CodeError> {
     match Template::new(text, &[key]) {
         Ok(_) => Ok(vec![key.to_owned()]),

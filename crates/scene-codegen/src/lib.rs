@@ -36,9 +36,9 @@ use model::Registry;
 
 use assembled::{SceneText, prepared};
 
-/// Generates the module of a scene file for the run that the scene requests; without a run, for its
-/// initial state. The rows `drop` (0-based) are treated as dependent, in place of those in the
-/// scene.
+/// Generates the module of a scene file for the run that the scene requests. If the scene requests
+/// no run, the module is generated for the initial state. The rows `drop` (0-based) are treated as
+/// dependent and replace the rows that the scene states.
 ///
 /// # Errors
 /// Returns an error if the file cannot be read, the scene contains errors, its run stops, or no
@@ -103,7 +103,8 @@ pub fn scene_tape(
 }
 
 /// Calls a function with the subject of a scene. The subject contains the states of the run that
-/// the scene requests, or its initial state, and the numbers of these keys as inputs.
+/// the scene requests, or the initial state if there is no run. The numbers of these keys are
+/// inputs of the subject.
 fn with_subject<R>(
     scene: &SceneText<'_>,
     inputs: &[String],

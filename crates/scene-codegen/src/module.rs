@@ -23,14 +23,14 @@ use crate::time;
 /// Options for the content of a module.
 #[derive(Clone, Debug, Default)]
 pub struct Choices {
-    /// The path of the crate `dynamics` as seen from the module. If it is given, `Code` implements
-    /// the trait `SceneCode` of this crate. Otherwise, the module has no imports.
+    /// The path of the crate `dynamics` in the module. If it is given, `Code` implements the trait
+    /// `SceneCode` of this crate. Otherwise, the module has no imports.
     pub dynamics: Option<String>,
     /// Use sines, cosines and roots of the crate `libm` instead of `std`.
     pub libm: bool,
-    /// Keys of numbers in the scene that will be varied, as in [`scene::Template`]; the key of a
-    /// list refers to all of its numbers. The affected values of the equations are arguments of the
-    /// functions of the module.
+    /// Keys of numbers in the scene that will be varied, as in [`scene::Template`]. The key of a
+    /// list refers to all numbers of the list. The affected values of the equations are arguments
+    /// of the functions of the module.
     pub inputs: Vec<String>,
 }
 
@@ -57,7 +57,7 @@ impl Module {
         Self { name, ..self }
     }
 
-    /// Returns the text of a file that contains only the module; `origin` states how it was
+    /// Returns the text of a file that contains only the module. `origin` states how the file was
     /// generated.
     #[must_use]
     pub fn as_file(&self, origin: &str) -> String {
@@ -207,7 +207,7 @@ fn parse(text: &str) -> Result<TokenStream, CodeError> {
 /// Properties that all functions of a module have in common.
 struct Shape {
     space: SpaceKind,
-    /// In the plane, the coordinates whose cosine or sine is used; in space, the bodies whose
+    /// In the plane, the coordinates whose cosine or sine is used. In space, the bodies whose
     /// rotation is used.
     rotations: Vec<usize>,
     n_functions: usize,
@@ -369,7 +369,7 @@ fn shared(shape: &Shape, jets: &str) -> Result<TokenStream, CodeError> {
     })
 }
 
-/// Generates a function on arrays: its straight-line core with read and write access, the interface
+/// Generates a function on arrays: a straight-line core with read and write access, the interface
 /// for one state, and the interface for several states.
 fn function(functions: &Functions, f: &Function, shape: &Shape) -> TokenStream {
     let e = &functions.equations;

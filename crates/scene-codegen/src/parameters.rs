@@ -14,7 +14,7 @@ pub(crate) struct Parameter {
     pub(crate) places: Vec<usize>,
 }
 
-/// The inputs of a module, and mechanisms in which they have other values.
+/// The inputs of a module, and mechanisms in which the inputs have other values.
 #[derive(Clone, Default)]
 #[cfg_attr(
     not(feature = "modules"),
@@ -45,7 +45,8 @@ impl Inputs {
         }
     }
 
-    /// Returns the index of the input with an index in the recording, if this value is an input.
+    /// Returns the index of the input whose value has the index `place` in the recording. Returns
+    /// `None` if this value is not an input.
     pub(crate) fn at(&self, place: usize) -> Option<usize> {
         self.of_place.get(&place).copied()
     }

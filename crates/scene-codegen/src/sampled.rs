@@ -3,14 +3,14 @@
 //! do not belong to the motion show which values are equal.
 //!
 //! Numerical values are compared, because symbolic simplification does not find all equal
-//! expressions. For example, `Rᵀ·R = 1` holds for rotation matrices, but not for the polynomials in
+//! expressions. For example, `Rᵀ·R = 1` is true for rotation matrices, but not for polynomials in
 //! their entries. In addition, joints that are defined outside the library need no second, symbolic
-//! kernel. The tests and `with_code` compare every result with that of the interpreter.
+//! kernel. The tests and `with_code` compare every result with the result of the interpreter.
 
 use symbolic::{Program, Value};
 
-/// Two values are equal if their difference is at most this fraction of the terms of one of them,
-/// at all states that do not belong to the motion. Both values have rounding errors.
+/// Two values are equal if, at all states outside of the motion, their difference is at most this
+/// fraction of the terms of one of the values. Both values have rounding errors.
 const SAME: f64 = 1e-13;
 
 /// Straight-line code and the values of its operations at some states.

@@ -28,8 +28,8 @@ pub struct State {
 pub struct Subject<'a> {
     /// The mechanism with its initial state and its independent rows.
     pub prepared: &'a PreparedMechanism,
-    /// States of the motion; the first one is the initial state. The states of the described
-    /// mechanism come first, then those of mechanisms with other values of the inputs.
+    /// States of the motion; the first state is the initial state. The states of the described
+    /// mechanism come first. The states of mechanisms with other values of the inputs follow.
     pub states: Vec<State>,
     /// For each state, the index of its mechanism in the variants of the inputs; `None` for the
     /// described mechanism.

@@ -33,7 +33,7 @@ mod tests {
             }
             x *= 1.0003;
         }
-        // Near multiples of π/2, small values are accurate relative to their own size.
+        // Near multiples of π/2, the error of a small value is small relative to the value.
         for k in 1..200_000 {
             let x = f64::from(k) * core::f64::consts::FRAC_PI_2;
             let ([cos, sin], (s, c)) = (cos_sin(x), x.sin_cos());

@@ -22,8 +22,8 @@ use list::{List, PLACES, Place};
 include!("support/cos_sin.in");
 include!("support/rotation.in");
 
-/// Number of states that are evaluated together (a SIMD batch), which is the length of one cache
-/// line.
+/// Number of states that are evaluated together (a SIMD batch). The values of one batch have the
+/// length of one cache line.
 pub const LANES: usize = 8;
 
 /// The code of one mechanism as lists of operations.
@@ -66,7 +66,7 @@ pub struct TapeCall {
     pub t: f64,
     /// Coordinates.
     pub q: Vec<f64>,
-    /// Velocities or residuals; this depends on the function.
+    /// Velocities or residuals, depending on the function.
     pub with: Vec<f64>,
     /// The results.
     pub out: Vec<f64>,
@@ -287,9 +287,9 @@ impl Tape {
     }
 
     /// Evaluates a function of one operation list for several runs, each with its own values of the
-    /// inputs; the results have the same bits as those of single evaluations. If the operation list
-    /// of a call is not a clone of the first one (with other values of the inputs), its health is
-    /// NaN.
+    /// inputs. The results are bitwise equal to the results of single evaluations. If the operation
+    /// list of a call is not a clone of the first one (with other values of the inputs), its health
+    /// is NaN.
     pub fn evaluate_all(function: CodeFunction, calls: &mut [Box<TapeCall>]) {
         let Some(lists) = calls.first().map(|call| Arc::clone(&call.tape.lists)) else {
             return;
@@ -362,8 +362,8 @@ fn wide(list: &List, places: &mut [[f64; LANES]; PLACES], calls: &mut [Box<TapeC
     });
 }
 
-/// Evaluates a list for at least one and at most L calls; unused places of the batch repeat the
-/// first call.
+/// Evaluates a list for at least one call and at most L calls. Unused places of the batch repeat
+/// the first call.
 #[inline(always)]
 fn evaluate<const L: usize>(
     list: &List,

@@ -23,7 +23,7 @@ const STATES: usize = 40;
 
 pub(crate) const ROBOT: &str = include_str!("../../robot-trolley/robot-trolley.toml");
 
-/// Two bodies in space without constraints that are connected by a spring.
+/// Two bodies in space that are connected by a spring and have no constraints.
 const FREE: &str = r#"
 scene = { name = "free", space = "plane", gravity = [0.0, -1.0] }
 body = [
@@ -130,8 +130,8 @@ fn largest(x: &[f64]) -> f64 {
     x.iter().fold(0.0, |a, x| a.max(x.abs()))
 }
 
-/// Returns the largest relative difference of accelerations and multipliers, without states at
-/// which one of the methods is near a singular configuration.
+/// Returns the largest relative difference of accelerations and multipliers. States at which one of
+/// the methods is near a singular configuration are not compared.
 fn compare(name: &str, text: &str, n: usize) -> (usize, f64) {
     let study = study(name, text);
     let subject = subject(&study, name);
@@ -307,8 +307,8 @@ fn it_does_not_matter_which_way_a_vehicle_points() {
     for health in healths {
         assert!((health - healths[0]).abs() < 1e-9, "{healths:?}");
     }
-    // The equations of pins on the ground are the same in every frame; those of a line on the
-    // ground are not.
+    // The equations of pins on the ground are the same in every frame. The equations of a line on
+    // the ground differ.
     let pinned = self::study("driven", DRIVEN);
     assert!(may_be_seen_from(&Subject::at_start(&pinned.prepared), 2));
     let bead = self::study("bead", BEAD);

@@ -7,7 +7,7 @@ use model::function::Parts;
 use model::record::{FunctionForm, TimeFunction};
 
 /// Returns the expression for value and derivatives of a function at `t`, and the support functions
-/// that it needs; `numbers` contains the texts of the parameters, in the order of
+/// that the expression needs. `numbers` contains the texts of the parameters, in the order of
 /// [`Parts::numbers`].
 pub(crate) fn jet(function: &Function, numbers: &[String]) -> (String, &'static [&'static str]) {
     let list = numbers.join(", ");
@@ -32,8 +32,8 @@ pub(crate) fn jet(function: &Function, numbers: &[String]) -> (String, &'static 
 }
 
 /// Returns the body of the function that evaluates `[f, ḟ, f̈]` of all functions in sequence.
-/// `input` returns the text of a parameter that is an input, for the index of the function and the
-/// index in the order of [`TimeFunction::numbers`].
+/// `input` returns the text of a parameter that is an input. The arguments of `input` are the index
+/// of the function and the index of the parameter in [`TimeFunction::numbers`].
 pub(crate) fn jets<'f>(
     functions: impl Iterator<Item = &'f TimeFunction>,
     input: impl Fn(usize, usize) -> Option<String>,

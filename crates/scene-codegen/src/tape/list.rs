@@ -1,10 +1,10 @@
-//! Straight-line code as a list of instructions on storage places. It is executed for several
-//! states at once, so that each instruction is read only once for all of them. The results for a
-//! state have the same bits for any values of the other states.
+//! Straight-line code as a list of instructions on storage places. The list is executed for several
+//! states at once, so that each instruction is read only once for all states. The results for a
+//! state do not depend on the values of the other states, not even in the last bit.
 //!
 //! If a product is used only once, in a sum or a difference, the two operations become one
-//! instruction; each is rounded separately. A storage place is used again when its value is no
-//! longer needed, so that all values fit in the nearest cache.
+//! instruction. Each operation is rounded separately. A storage place is used again when its value
+//! is no longer needed, so that all values fit in the nearest cache.
 
 use std::array::from_fn;
 use std::cmp::Reverse;
@@ -21,9 +21,9 @@ pub(super) type Place = u16;
 /// Number of storage places; a list uses the first of them.
 pub(super) const PLACES: usize = 1 << 16;
 
-/// Operands and result of `c ± a·b`, which is rounded after the product and after the sum. Each
-/// sum, difference and product of a program has this form. A sum has the factor b = 1, a product
-/// has c = −0; neither changes any bit.
+/// Operands and result of `c ± a·b`. The expression is rounded after the product and after the sum.
+/// Each sum, difference and product of a program has this form. A sum has the factor b = 1, and a
+/// product has c = −0; neither changes any bit.
 #[derive(Clone, Copy, Debug)]
 struct Sum {
     a: Place,
@@ -54,8 +54,8 @@ enum Do {
 /// One function as a list of instructions.
 #[derive(Default)]
 pub(super) struct List {
-    /// Coordinates, entries of the second argument, and inputs of an operation list, each with its
-    /// storage place.
+    /// Coordinates, each with its storage place. The next two lists contain the entries of the
+    /// second argument, and the inputs of an operation list.
     pub(super) coordinates: Vec<(usize, Place)>,
     pub(super) with: Vec<(usize, Place)>,
     pub(super) numbers: Vec<(usize, Place)>,
@@ -63,8 +63,8 @@ pub(super) struct List {
     pub(super) functions: Vec<(usize, Vec<(usize, Place)>)>,
     /// Coordinates, each with the storage places of its cosine and sine.
     pub(super) angles: Vec<(usize, [Option<Place>; 2])>,
-    /// Bodies in space, each with entries of its rotation matrix (by rows) and the storage places
-    /// of these entries.
+    /// Bodies in space. For each body, the list contains entries of the rotation matrix (by rows)
+    /// and the storage places of these entries.
     pub(super) rotations: Vec<(usize, Vec<(usize, Place)>)>,
     constants: Vec<(f64, Place)>,
     steps: Vec<Do>,
@@ -123,7 +123,8 @@ impl List {
         }
     }
 
-    /// Executes all steps for L states; the storage places of the inputs must contain their values.
+    /// Executes all steps for L states. The storage places of the inputs must contain the values of
+    /// the inputs.
     #[inline(always)]
     pub(super) fn execute<const L: usize>(&self, places: &mut [[f64; L]; PLACES]) {
         for &(x, to) in &self.constants {
@@ -290,14 +291,14 @@ fn signs(program: &Program, joined: &[bool], k: usize) -> Signs {
     }
 }
 
-/// Number of instructions until the result of an instruction is available in a processor; other
-/// instructions should be executed in between.
+/// Number of instructions until the result of an instruction is available in a processor. Other
+/// instructions should be executed during this time.
 const LATENCY: usize = 5;
 
-/// Returns the operations in an order in which as few as possible wait for the result of another
-/// one, and in which operations of the same kind are adjacent. Among the operations that need not
-/// wait, the one with the longest chain of dependent operations comes first. Inputs, constants and
-/// products that are combined with sums are omitted.
+/// Returns the operations in an order in which operations of the same kind are adjacent and as few
+/// operations as possible wait for the result of another operation. Among the operations that need
+/// not wait, the operation with the longest chain of dependent operations comes first. Inputs,
+/// constants and products that are combined with sums are omitted.
 fn order(program: &Program, joined: &[bool]) -> Vec<usize> {
     let ops = program.ops();
     let is_step = |k: usize| !joined[k] && !matches!(ops[k], Op::Input(_) | Op::Number(_));
@@ -329,7 +330,7 @@ fn order(program: &Program, joined: &[bool]) -> Vec<usize> {
     };
     let steps: Vec<usize> = (0..ops.len()).filter(|k| is_step(*k)).collect();
     let mut ready: [BinaryHeap<(usize, Reverse<usize>)>; 5] = Default::default();
-    // Operations whose operands are being computed, with the time at which the operands are
+    // Operations whose operands are not yet available, with the time at which the operands become
     // available.
     let mut waiting: BinaryHeap<Reverse<(usize, usize)>> = BinaryHeap::new();
     let mut from = vec![0_usize; ops.len()];
@@ -427,7 +428,7 @@ mod tests {
                     p.neg(product)
                 }
             };
-            // Values are reduced to a similar size, so that none overflows.
+            // Values are reduced to a similar size, so that no value overflows.
             let (one, square) = (p.number(1.0), p.mul(made, made));
             let size = p.add(one, square);
             values.push(p.div(made, size));
@@ -436,8 +437,8 @@ mod tests {
         (p.with_outputs(&outputs), sources.collect())
     }
 
-    /// The references are single evaluations of the operations of the program. Each state has other
-    /// values of the inputs.
+    /// The references are single evaluations of the operations of the program. The values of the
+    /// inputs differ from state to state.
     #[test]
     fn lists_are_their_programs_bit_for_bit() {
         const L: usize = 8;
