@@ -3,7 +3,7 @@
 
 use crate::limits::{COMMON_ANGLE, TURN};
 
-/// Suspicious angles of one kind, with a description of the first angle and the number of angles.
+/// Suspicious angles of one kind: a description of the first angle, and the number of angles.
 #[derive(Default)]
 pub(crate) struct Suspects {
     first: Option<String>,

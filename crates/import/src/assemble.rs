@@ -1,6 +1,6 @@
-//! Finds a pose at which loops are closed. The search starts from a guess and uses least squares in
-//! the coordinates of the joints that define the positions of links. If this fails, the gaps of the
-//! guess are reduced in steps, and other guesses are tried.
+//! Finds a pose at which loops are closed. The search starts from a guess and uses least squares.
+//! Its unknowns are the coordinates of the joints that define the positions of links. If the search
+//! fails, the gaps of the guess are reduced in steps, and other guesses are tried.
 
 mod loops;
 
@@ -41,13 +41,13 @@ pub(crate) fn gap(model: &Model) -> f64 {
     gaps.iter().map(Gap::size).fold(0.0, f64::max)
 }
 
-/// Poses of the links for a guess of coordinate changes.
+/// Returns the poses of the links for a guess of coordinate changes.
 pub(crate) fn poses(model: &Model, guess: &[(usize, usize, f64)]) -> Vec<Isometry3<f64>> {
     State::new(model, guess).poses(model)
 }
 
-/// Descriptions of the gaps for these poses of the links and these coordinate changes. Each
-/// contains the name of the loop, the distance and the angle.
+/// Returns descriptions of the gaps for these poses of the links and these coordinate changes. Each
+/// description contains the name of the loop, the distance and the angle.
 pub(crate) fn open(model: &Model, poses: &[Isometry3<f64>], moved: &[[f64; 2]]) -> Vec<String> {
     let gaps = Tree::new(model).gaps(model, poses, moved);
     let open = gaps.iter().filter(|gap| gap.size() > OPEN);
@@ -56,7 +56,7 @@ pub(crate) fn open(model: &Model, poses: &[Isometry3<f64>], moved: &[[f64; 2]]) 
 }
 
 /// Assembles a model from a guess of the coordinate changes. Coordinates in `held` (joint,
-/// coordinate) keep the values of the guess, if the loops can be closed with them.
+/// coordinate) keep the values of the guess, if the loops can be closed with these values.
 pub(crate) fn assemble(
     model: &Model,
     guess: &[(usize, usize, f64)],
@@ -95,8 +95,9 @@ pub(crate) fn assemble(
 }
 
 /// Replaces the described pose by the pose that was found. Springs, couplings and the orientations
-/// of welds still refer to the pose of the file. This is not possible for springs of spherical
-/// joints that have rotated: these springs are removed, and the names of their joints are returned.
+/// of welds still refer to the pose of the file. Springs of spherical joints that have rotated
+/// cannot refer to the pose of the file. These springs are removed, and the names of their joints
+/// are returned.
 pub(crate) fn describe(model: &mut Model, found: &Assembly) -> Vec<String> {
     let mut removed = Vec::new();
     for k in 0..model.joints.len() {

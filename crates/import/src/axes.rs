@@ -1,6 +1,6 @@
-//! Finds axes of a loop that are nearly parallel or nearly intersect, either because of rounded
-//! digits or because of an intended tilt. These axes are reported, and made parallel or
-//! intersecting on request.
+//! Finds axes of a loop that are nearly parallel or nearly intersect. The cause may be rounded
+//! digits or an intended tilt. The axes are reported. On request, they are made parallel or
+//! intersecting.
 
 use model::words::estimate;
 use std::cmp::Reverse;
@@ -52,7 +52,8 @@ impl Tilt {
     }
 }
 
-/// Angle up to which axes are made parallel, computed from the accuracy of angles in the file.
+/// Returns the angle up to which axes are made parallel. It is computed from the accuracy of angles
+/// in the file.
 fn near(angle: Option<f64>) -> f64 {
     SNAPPED.max(3.0 * angle.unwrap_or(0.0))
 }
@@ -99,7 +100,8 @@ fn tilted(
     (of, Some(reference), tilts)
 }
 
-/// Descriptions of the axes that `--snap` would make parallel; `None` if there are none.
+/// Returns descriptions of the axes that `--snap` would make parallel. Returns `None` if there are
+/// no such axes.
 pub(crate) fn tilts(model: &Model, poses: &[Isometry3<f64>], angle: Option<f64>) -> Option<String> {
     let loops = loops(model);
     let all = loops
@@ -143,8 +145,8 @@ fn sentence(words: &str) -> String {
     first.unwrap_or_default() + letters.as_str()
 }
 
-/// Reports axes of each loop that are nearly parallel or nearly intersect. `poses` are the initial
-/// poses of the links, `tolerance` is the accuracy of lengths and angles.
+/// Reports axes of each loop that are nearly parallel or nearly intersect. `poses` contains the
+/// initial poses of the links, and `tolerance` the accuracy of lengths and angles.
 pub(crate) fn look(
     model: &mut Model,
     poses: &[Isometry3<f64>],
@@ -216,7 +218,7 @@ pub(crate) fn look(
     }
 }
 
-/// Angle between two lines, independent of their sense.
+/// Returns the angle between two lines, independent of the sense of the lines.
 fn tilt(a: &JointAxis, b: &JointAxis) -> f64 {
     let sine = a.direction.cross(&b.direction).norm();
     sine.atan2(a.direction.dot(&b.direction).abs())
@@ -257,8 +259,8 @@ fn shift(model: &mut Model, poses: &[Isometry3<f64>], joint: usize, by: Vector3<
     }
 }
 
-/// The joints of each loop: the joint that closes the loop, and the joints of the tree between the
-/// links of this joint.
+/// Returns the joints of each loop. These are the joint that closes the loop, and the joints of the
+/// tree between the links of this joint.
 fn loops(model: &Model) -> Vec<Vec<usize>> {
     let before = placing(model);
     let chain = |link: Option<usize>| {

@@ -1,4 +1,4 @@
-//! Corrects couplings that are not satisfied at the described pose of the links: the dependent
+//! Corrects couplings that are not satisfied at the described pose of the links. The dependent
 //! coordinate is changed to the value that the coupling requires.
 
 use std::collections::BTreeMap;
@@ -32,12 +32,14 @@ pub(crate) fn about(coefficients: &[f64], s: f64) -> Vec<f64> {
     shifted
 }
 
-/// Extends the given coordinates (joint, coordinate, change relative to the described pose) by the
-/// coordinates that couplings determine from them. A linear coupling is used in both directions.
+/// Extends the given coordinates (joint, coordinate, change relative to the described pose). It
+/// adds the coordinates that couplings determine from the given coordinates. A linear coupling is
+/// used in both directions.
 pub(crate) fn follow(model: &Model, given: &[(usize, usize, f64)]) -> Vec<(usize, usize, f64)> {
     let mut known: BTreeMap<(usize, usize), f64> = BTreeMap::new();
     known.extend(given.iter().map(|&(joint, k, change)| ((joint, k), change)));
-    // A chain of couplings is complete after as many rounds as it has couplings.
+    // The number of rounds is at least the number of couplings in a chain, so every chain is
+    // complete.
     for _ in 0..=model.couplings.len() {
         let before = known.len();
         for coupling in model.couplings.iter().filter(|coupling| coupling.is_active) {
@@ -64,11 +66,12 @@ pub(crate) fn follow(model: &Model, given: &[(usize, usize, f64)]) -> Vec<(usize
     all.map(|((joint, k), change)| (joint, k, change)).collect()
 }
 
-/// Moves the links that couplings determine, and converts the polynomials of the couplings to
-/// coordinate changes.
+/// Moves the links whose coordinates couplings determine, and converts the polynomials of the
+/// couplings to coordinate changes.
 pub(crate) fn settle(model: &mut Model, findings: &mut Findings) {
     let mut shifts = vec![[0.0; 2]; model.joints.len()];
-    // A chain of couplings is complete after as many rounds as it has couplings.
+    // The number of rounds is at least the number of couplings in a chain, so every chain is
+    // complete.
     for _ in 0..=model.couplings.len() {
         let before = shifts.clone();
         for coupling in model.couplings.iter().filter(|coupling| coupling.is_active) {

@@ -31,7 +31,7 @@ impl Folder {
         })
     }
 
-    /// The text of a file in the folder; otherwise the reason why it cannot be read.
+    /// Returns the text of a file in the folder, or the reason why the file cannot be read.
     fn read(&self, name: &str) -> Result<String, String> {
         let Self::At(folder) = self else {
             return Err("files are included only into a file, not into standard input".to_owned());

@@ -1,5 +1,5 @@
-//! Findings while a file is read: problems because of which the file is rejected, content that the
-//! scene omits, and the number of digits.
+//! Findings that are made while a file is read: problems that cause the rejection of the file,
+//! content that the scene omits, and the number of digits.
 
 use std::ops::Range;
 
@@ -39,7 +39,7 @@ pub(crate) enum Fault {
     Include,
     /// A file of loop closures that cannot be read.
     Loops,
-    /// Loops that are not closed at any pose that the search finds.
+    /// Loops that are open at every pose that the search finds.
     Assembly,
 }
 
@@ -83,7 +83,7 @@ pub(crate) struct Findings {
     pub(crate) omissions: Vec<Omission>,
     /// Comments about the scene as a whole, for the first lines of its text.
     pub(crate) remarks: Vec<String>,
-    /// Name of the given file; the other files are included by it.
+    /// Name of the given file. This file includes the other files.
     pub(crate) file: String,
     pub(crate) lengths: Digits,
     pub(crate) directions: Digits,
@@ -93,7 +93,7 @@ pub(crate) struct Findings {
     pub(crate) radians: Suspects,
 }
 
-/// Meaning of a number, because digits are counted separately for each meaning.
+/// Meaning of a number. Digits are counted separately for each meaning.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(crate) enum NumberKind {
     Length,
@@ -305,7 +305,7 @@ impl Findings {
     }
 }
 
-/// A vector scaled to length 1. If its length is already 1 to within rounding, the digits do not
+/// Scales a vector to length 1. If its length is already 1 to within rounding, the digits do not
 /// change.
 pub(crate) fn unit(vector: nalgebra::Vector3<f64>) -> nalgebra::Vector3<f64> {
     let scaled = vector / vector.amax();

@@ -93,8 +93,8 @@ pub struct Refusal {
 
 impl Refusal {
     fn of(mut diagnostics: Vec<Diagnostic>, more: usize, texts: &[SourceText]) -> Self {
-        // Positions refer to one text. Problems of other files are reported after the user has
-        // corrected this file.
+        // Positions refer to the text of one file. Problems of other files are reported after the
+        // user has corrected this file.
         let file = diagnostics
             .first()
             .map_or_else(String::new, |d| d.file.clone());
@@ -150,8 +150,8 @@ pub fn import(name: &str, text: &str, options: &Options) -> Result<ImportedScene
             Err(problem) => return Err(Box::new(Refusal::of(vec![*problem], 0, &texts))),
         }
     }
-    // A file whose includes have problems is rejected here, because files that include each other
-    // would be read without end.
+    // A file whose included files have problems is rejected here, because files that include each
+    // other would be read without end.
     if let Some(refusal) = refused(&mut findings) {
         return Err(refusal);
     }

@@ -1,6 +1,6 @@
-//! Constants chosen by the authors. The limits that are checked before parsing prevent a file from
-//! using all memory or the whole stack. Other constants define when loops are closed, axes are
-//! parallel and values are exact, or are defaults of formats.
+//! Constants chosen by the authors. Some limits are checked before parsing; they prevent a file
+//! from using all memory or the whole stack. Some constants define when loops are closed, axes are
+//! parallel and values are exact. The other constants are defaults of formats.
 
 /// Largest size of a file. Unit: bytes. Too small: large scans of robots with comments are
 /// rejected. Too large: a malicious file of this size uses about 20 times as much memory. Test:
@@ -41,8 +41,8 @@ pub(crate) const MOST_PROBLEMS: usize = 100;
 pub(crate) const FINEST: f64 = 1e-12;
 
 /// Coarsest digit that is used as a tolerance. Unit: share of the size of the mechanism, or rad.
-/// Too small: files with three digits count as exact, and their redundant rows as independent. Too
-/// large: numbers such as 0.5 written by hand count as inaccurate. Test:
+/// Too small: files with three digits count as exact, and redundant rows of these files count as
+/// independent. Too large: numbers such as 0.5 written by hand count as inaccurate. Test:
 /// `digits_give_the_tolerance`.
 pub(crate) const COARSEST: f64 = 1e-3;
 
@@ -57,9 +57,9 @@ pub(crate) const ASSEMBLED: f64 = 1e-11;
 /// `loops_that_cannot_close_are_refused`.
 pub(crate) const CLOSED: f64 = 1e-4;
 
-/// Gap at the described pose beyond which another pose is searched for. Unit: as [`CLOSED`]. Too
-/// small: rounding errors move all links. Too large: the reader of scenes must move the links.
-/// Test: `loops_are_closed_from_a_guess`.
+/// Gap at the described pose. If the gap is larger, the import searches for another pose. Unit: as
+/// [`CLOSED`]. Too small: rounding errors move all links. Too large: the reader of scenes must move
+/// the links. Test: `loops_are_closed_from_a_guess`.
 pub(crate) const OPEN: f64 = 1e-7;
 
 /// Maximum number of steps of one search. Unit: number. Too small: poses far from the guess are not

@@ -28,7 +28,8 @@ impl Default for Mass {
 }
 
 impl Mass {
-    /// A body whose tensor is given in axes that are rotated relative to the axes of the body.
+    /// Creates the mass of a body. The given tensor is in axes that are rotated relative to the
+    /// axes of the body.
     pub(crate) fn turned(
         mass: f64,
         centre: Vector3<f64>,
@@ -43,8 +44,8 @@ impl Mass {
         }
     }
 
-    /// The same body in other axes. `pose` transforms coordinates in the current axes to
-    /// coordinates in the new axes.
+    /// Returns the mass of the same body in other axes. `pose` transforms coordinates in the
+    /// current axes to coordinates in the new axes.
     pub(crate) fn seen(&self, pose: &Isometry3<f64>) -> Self {
         Self {
             mass: self.mass,
@@ -57,8 +58,8 @@ impl Mass {
         self.mass == 0.0 && self.inertia == Matrix3::zeros()
     }
 
-    /// Two bodies combined into one. If one of them has no mass, the values of the other body are
-    /// returned unchanged.
+    /// Combines two bodies into one body. If one of the bodies has no mass, the values of the other
+    /// body are returned unchanged.
     pub(crate) fn plus(&self, other: &Self) -> Self {
         if other.is_nothing() {
             return *self;
@@ -89,7 +90,7 @@ impl Mass {
     }
 }
 
-/// A tensor in other axes. If the rotation is zero, the digits of the tensor do not change.
+/// Returns a tensor in other axes. If the rotation is zero, the digits of the tensor do not change.
 fn turned(axes: UnitQuaternion<f64>, inertia: Matrix3<f64>) -> Matrix3<f64> {
     if axes == UnitQuaternion::identity() {
         return inertia;
@@ -99,7 +100,8 @@ fn turned(axes: UnitQuaternion<f64>, inertia: Matrix3<f64>) -> Matrix3<f64> {
     without_rounding((turned + turned.transpose()) * 0.5)
 }
 
-/// A tensor without the products that are rounding errors relative to its largest entry.
+/// Returns the tensor without products of inertia that are rounding errors relative to the largest
+/// entry.
 fn without_rounding(mut inertia: Matrix3<f64>) -> Matrix3<f64> {
     let floor = ROUNDING * inertia.amax();
     for (i, j) in [(0, 1), (0, 2), (1, 2)] {
@@ -206,8 +208,8 @@ mod tests {
         assert!((z - along).abs() < 1e-9 && (x - across).abs() < 1e-9);
     }
 
-    /// A rotation by a quarter turn has a computed cosine of 2e-16, but a diagonal tensor remains
-    /// diagonal. Products of inertia that a file contains do not change.
+    /// The computed cosine of a quarter turn is 2e-16, but a diagonal tensor remains diagonal.
+    /// Products of inertia that a file contains do not change.
     #[test]
     fn rounded_products_are_zero() {
         use std::f64::consts::FRAC_PI_2;

@@ -19,13 +19,13 @@ pub(crate) struct Link {
     pub(crate) held_weight: f64,
 }
 
-/// Degrees of freedom of the second link relative to the first one.
+/// Degrees of freedom of the second link relative to the first link.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum JointKind {
     Revolute,
     Translational,
     Spherical,
-    /// Rotations about the axis of the first link, then about `cross` of the second.
+    /// Rotations about the axis of the first link, then about the axis `cross` of the second link.
     Universal,
     Cylindrical,
     /// Advance in metres per revolution.
@@ -80,7 +80,7 @@ pub(crate) struct Load {
 #[derive(Clone, Debug)]
 pub(crate) struct Joint {
     pub(crate) name: String,
-    /// Names of the coordinates. The names are the names of the joints in the file that this joint
+    /// Names of the coordinates. These are the names of the joints in the file that this joint
     /// replaces.
     pub(crate) names: [String; 2],
     pub(crate) kind: JointKind,
@@ -95,8 +95,8 @@ pub(crate) struct Joint {
     pub(crate) axes: [Vector3<f64>; 2],
     /// Second axis of a universal joint, in the axes of the second link.
     pub(crate) cross: Vector3<f64>,
-    /// For joints that close a loop and fix the relative orientation: the axes in both links that
-    /// must coincide. `None` means that the relative orientation at the described pose is fixed.
+    /// The axes in both links that must coincide, for joints that close a loop and fix the relative
+    /// orientation. `None` means that the relative orientation at the described pose is fixed.
     pub(crate) frames: Option<[UnitQuaternion<f64>; 2]>,
     /// Values of the coordinates at the described pose.
     pub(crate) zero: [f64; 2],
@@ -107,7 +107,7 @@ pub(crate) struct Joint {
 }
 
 impl Joint {
-    /// A joint without loads that determines the position of its second link.
+    /// Creates a joint without loads that determines the position of its second link.
     pub(crate) fn new(
         name: impl Into<String>,
         kind: JointKind,
@@ -163,8 +163,9 @@ pub(crate) struct Keyframe {
     /// The coordinates of each joint. A spherical joint has a quaternion (w, x, y, z), and a free
     /// link has position and quaternion.
     pub(crate) q: Vec<Vec<f64>>,
-    /// For each joint, its velocities; for a spherical joint and the rotation of a free link, the
-    /// angular velocity in the axes of the link. `None` if all are zero.
+    /// The velocities of each joint. For a spherical joint and for the rotation of a free link,
+    /// these are the components of the angular velocity in the axes of the link. `None` if all
+    /// velocities are zero.
     pub(crate) v: Option<Vec<Vec<f64>>>,
 }
 

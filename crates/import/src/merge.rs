@@ -1,4 +1,4 @@
-//! Merges each link that is fixed to another link into this other link.
+//! Merges links that are fixed to each other.
 
 use nalgebra::Isometry3;
 
@@ -6,12 +6,13 @@ use crate::findings::Findings;
 use crate::mechanism::{Frame, Joint, JointKind, Model};
 use crate::pose::{Motion, placing};
 
-/// Position of the axes of a link after merging: the link into which the link was merged, and the
-/// pose of the axes relative to it.
+/// Position of the axes of a link after merging: the host into which the link was merged, and the
+/// pose of the axes relative to the host.
 type Host = (Option<usize>, Isometry3<f64>);
 
-/// Merges each link that a fixed joint positions into the first link of this joint. `motions` are
-/// the motions of the links; the motions of the remaining links do not change.
+/// If a fixed joint determines the position of a link, this function merges the link into the first
+/// link of the joint. `motions` contains the motions of the links. The motions of the remaining
+/// links do not change.
 pub(crate) fn merge(model: &mut Model, motions: &mut Vec<Motion>, findings: &mut Findings) {
     let hosts = hosts(model);
     let is_merged = |k: &usize| hosts[*k].0 != Some(*k);

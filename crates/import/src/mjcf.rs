@@ -201,8 +201,8 @@ impl<'a> Reader<'a, '_> {
         }
     }
 
-    /// Kind of omission for a tendon. The kind depends on whether springs, dampers or friction are
-    /// omitted.
+    /// Returns the kind of omission for a tendon. The kind depends on whether springs, dampers or
+    /// friction are omitted.
     fn tendon(&mut self, element: Element<'a>) -> &'static str {
         let class = self.source.attributes(element, 0).class;
         let acts = ["stiffness", "damping", "frictionloss", "armature"]

@@ -8,18 +8,19 @@ use crate::files::Folder;
 pub struct Options {
     /// Folder of included files.
     pub folder: Folder,
-    /// Whether links that are fixed to others remain separate bodies.
+    /// Whether links that are fixed to other links remain separate bodies.
     pub fixed: FixedLinks,
     /// Treatment of the root link of a URDF.
     pub base: Base,
-    /// A file of loop closures of a URDF: its name and its text.
+    /// The name and the text of a file of loop closures of a URDF.
     pub loops: Option<(String, String)>,
-    /// Values of joint coordinates near which loops are closed: name of the joint, and value (m or
-    /// rad) with the sign convention of the file.
+    /// Values of joint coordinates. Loops are closed near these values. Each entry is the name of
+    /// the joint, and the value (m or rad) with the sign convention of the file.
     pub pose: Vec<(String, f64)>,
     /// Treatment of axes that are nearly parallel or nearly intersect.
     pub axes: Axes,
-    /// The keyframe at which the scene starts; without it, the scene starts at the described pose.
+    /// The keyframe at which the scene starts. Without a keyframe, the scene starts at the
+    /// described pose.
     pub keyframe: Option<String>,
 }
 
@@ -37,7 +38,7 @@ impl Default for Options {
     }
 }
 
-/// Treatment of links that are fixed to others.
+/// Treatment of links that are fixed to other links.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum FixedLinks {
     /// The links are merged into the other links and become markers.

@@ -1,15 +1,15 @@
 //! Computes poses of links for given joint coordinates, as products of displacements. Displacements
 //! are relative to the pose of the links in the imported file (the described pose).
 //!
-//! The displacement of a link is g_child = g_parent·D(q), with the displacement g_parent of the
-//! previous link and the displacement D(q) of the joint at its described position.
+//! The displacement of a link is g_child = g_parent·D(q). Here g_parent is the displacement of the
+//! previous link, and D(q) is the displacement of the joint at its described position.
 
 use nalgebra::{Isometry3, Quaternion, Translation3, UnitQuaternion, Vector3};
 
 use crate::mechanism::{Joint, JointKind, Model};
 
-/// A joint that determines the position of a link. Point and axis are in ground axes, with the
-/// links at the described pose.
+/// A joint that determines the position of a link. Point and axis are in ground axes, for the links
+/// at the described pose.
 pub(crate) struct JointPlacement {
     pub(crate) point: Vector3<f64>,
     pub(crate) axis: Vector3<f64>,
@@ -65,7 +65,8 @@ impl JointPlacement {
     }
 }
 
-/// The rotation by an angle about an axis. For an angle of zero it is exactly the identity.
+/// Returns the rotation by an angle about an axis. For an angle of zero, the result is exactly the
+/// identity.
 pub(crate) fn rotation(axis: Vector3<f64>, angle: f64) -> UnitQuaternion<f64> {
     if angle == 0.0 {
         return UnitQuaternion::identity();
@@ -99,8 +100,8 @@ pub(crate) fn quaternion([w, x, y, z]: [f64; 4]) -> UnitQuaternion<f64> {
     UnitQuaternion::new_normalize(q)
 }
 
-/// Computes the displacements of all links from the displacements of the joints; the joints may
-/// have any order. A link whose position no joint determines has its described pose.
+/// Computes the displacements of all links from the displacements of the joints. The joints may
+/// have any order. If no joint determines the position of a link, the link has its described pose.
 pub(crate) fn displaced(model: &Model, joints: &[Isometry3<f64>]) -> Vec<Isometry3<f64>> {
     let mut links = vec![None; model.links.len()];
     let before = placing(model);
@@ -146,7 +147,8 @@ pub(crate) fn placing(model: &Model) -> Vec<Option<usize>> {
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Motion {
     pub(crate) pose: Isometry3<f64>,
-    /// Velocity of the origin of its axes, and angular velocity, in ground axes.
+    /// Velocity of the origin of the axes of the link, and angular velocity of the link, in ground
+    /// axes.
     pub(crate) velocity: Vector3<f64>,
     pub(crate) spin: Vector3<f64>,
 }

@@ -195,7 +195,7 @@ fn read_model(element: Element, version: (u32, u32), model: &mut Model, findings
     find_tree(model);
 }
 
-/// Mass of a link, and the compensated share of its weight.
+/// Returns the mass of a link, and the compensated share of the weight.
 fn link(element: Element, name: &str, findings: &mut Findings) -> Option<(Mass, f64)> {
     let (mut mass, mut held) = (None, 0.0);
     for child in element.children() {

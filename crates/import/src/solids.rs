@@ -34,8 +34,8 @@ pub(crate) fn assume_gravity(model: &mut Model, findings: &mut Findings) {
     findings.remarks.push(remark.to_owned());
 }
 
-/// Decides which joints determine the positions of links. These are the first joint of each link,
-/// unless this joint would close a cycle. The other joints close loops.
+/// Decides which joints determine the positions of links. The first joint of each link determines
+/// its position, unless this joint would close a cycle. All other joints close loops.
 pub(crate) fn find_tree(model: &mut Model) {
     let mut before: Vec<Option<Option<usize>>> = vec![None; model.links.len()];
     for joint in &mut model.joints {
@@ -61,8 +61,9 @@ pub(crate) fn find_tree(model: &mut Model) {
     }
 }
 
-/// A joint with a second axis: a universal joint if the axes are perpendicular, otherwise two
-/// hinges with a massless link between them. `second` is the axis in the axes of the second link.
+/// Creates a joint with a second axis. If the axes are perpendicular, the result is a universal
+/// joint. Otherwise, the result is two hinges with a massless link between the hinges. `second` is
+/// the second axis in the axes of the second link.
 pub(crate) fn with_second_axis(
     model: &mut Model,
     mut joint: Joint,

@@ -12,8 +12,8 @@ use crate::pose::{self, Motion};
 use crate::xml::Element;
 use model::words::rough;
 
-/// The initial state of the scene, and whether this state has velocities; `None` if the scene
-/// starts at the described pose. `angle` is the accuracy of angles in the file.
+/// Returns the initial state of the scene, and whether this state has velocities. Returns `None` if
+/// the scene starts at the described pose. `angle` is the accuracy of angles in the file.
 pub(crate) fn start(
     model: &mut Model,
     options: &Options,
@@ -74,7 +74,7 @@ pub(crate) fn start(
 }
 
 /// Rejects keyframes with full revolutions of coupled joints. The initial angles in a scene do not
-/// contain full revolutions, but couplings depend on them.
+/// contain full revolutions, but couplings depend on full revolutions.
 fn refuse_turns(model: &Model, keyframe: &str, root: Element, findings: &mut Findings) {
     for coupling in model.couplings.iter().filter(|coupling| coupling.is_active) {
         for (joint, k) in coupling.x.into_iter().chain([coupling.y]) {

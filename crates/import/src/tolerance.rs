@@ -6,8 +6,8 @@ use crate::limits::{COARSEST, FINEST};
 use crate::mechanism::Model;
 use crate::write::number;
 
-/// The tolerances of lengths and directions, which are written at the start of a scene's text. If
-/// there is no tolerance, the reason is reported.
+/// Returns the tolerances of lengths and directions. The text of a scene starts with these
+/// tolerances. If there is no tolerance, the reason is reported.
 pub(crate) fn tolerances(model: &Model, findings: &mut Findings) -> [Option<f64>; 2] {
     let size = size(model);
     let length = findings.lengths.half_unit();

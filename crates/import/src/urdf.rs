@@ -37,7 +37,8 @@ pub(crate) fn read(root: Element, base: Base, findings: &mut Findings) -> Model 
         .unwrap_or_else(|| "URDF robot".into());
     let names = links(root, &mut model, findings);
     let edges = edges(root, &names, findings);
-    // If joints cannot be read, links have no position; this is not reported as a separate fault.
+    // If joints cannot be read, links have no position. The missing position is not reported as a
+    // separate fault.
     if findings.has_problems() || !place(root, &edges, base, &mut model, findings) {
         return model;
     }

@@ -1,5 +1,5 @@
 //! The names in a format: for each supported element, the names of its attributes and child
-//! elements. A name that is not in the lists is rejected at its position, because a misspelt
+//! elements. A name that the lists do not contain is rejected at its position, because a misspelt
 //! `density` would change the mass. In formats that allow extensions, names that are not similar to
 //! a known name are omitted and reported.
 
@@ -21,7 +21,8 @@ pub(crate) struct Vocabulary {
 /// The names of one element. Lists are words separated by spaces: `name` is an attribute, `<name>`
 /// an element.
 pub(crate) struct Entry {
-    /// Name of the element; `around/name` if the name has another meaning within that element.
+    /// Name of the element. It has the form `around/name` if the name has a different meaning
+    /// within the element `around`.
     element: &'static str,
     /// Names that the reader of the format uses or reports.
     read: &'static str,
@@ -82,11 +83,11 @@ fn inner(word: &'static str) -> Option<&'static str> {
     word.strip_prefix('<')?.strip_suffix('>')
 }
 
-/// Kind of omission for names that no format defines.
+/// Kind of omission for names that the formats do not define.
 const EXTENSIONS: &str = "extensions that are not read";
 
-/// Rejects unknown names in an element of a format and in its descendants; reports omitted content.
-/// `files` contains the files that may be included.
+/// Rejects unknown names in an element of a format and in the descendants of the element. Reports
+/// omitted content. `files` contains the files that may be included.
 pub(crate) fn check<'a>(
     element: Element<'a>,
     vocabulary: &Vocabulary,
@@ -122,7 +123,7 @@ pub(crate) fn check<'a>(
     }
 }
 
-/// The entry of an element within another one.
+/// Returns the entry of an element within another element.
 fn find<'t>(table: &'t [Entry], around: &str, name: &str) -> Option<&'t Entry> {
     let special = table
         .iter()
@@ -204,7 +205,7 @@ fn foreign(entry: &Entry, around: Element, child: Element, findings: &mut Findin
     findings.leave_element(EXTENSIONS, child, &subject);
 }
 
-/// Description of an omitted element: its name, or its kind and the name of its parent.
+/// Returns a description of an omitted element: its name, or its kind and the name of its parent.
 fn subject(around: Element, child: Element) -> String {
     let name = |element: Element| {
         let name = element.attribute("name").map(|name| name.text.trim());

@@ -50,7 +50,8 @@ pub(crate) fn scene(model: &Model, heading: &Heading, findings: &mut Findings) -
     out + &body
 }
 
-/// Comments: the source of the scene, and its omissions.
+/// Returns the comments at the start of the scene: the source of the scene, and the omitted
+/// content.
 fn head(heading: &Heading, findings: &Findings) -> String {
     let (file, format) = heading.source;
     let mut out = String::new();
@@ -97,7 +98,7 @@ pub(crate) fn by_kind(omissions: &[Omission]) -> Vec<(&'static str, Vec<String>)
     kinds
 }
 
-/// Writes a comment, wrapped to lines. Characters that would end a comment are replaced.
+/// Writes a comment and wraps it to lines. Characters that would end a comment are replaced.
 fn comment(out: &mut String, lead: &str, words: &str) {
     let mut line = lead.to_owned();
     let mut is_empty = true;
@@ -377,8 +378,8 @@ impl<'a> Writer<'a> {
         let of = self.coordinate(k, coordinate).to_owned();
         let name = self.elements.free(&format!("{of} spring"));
         let of = |list: &[f64; 2]| list.get(coordinate).copied().unwrap_or(0.0);
-        // The initial state determines an angle only up to full revolutions, so the full
-        // revolutions are added to the free angle of the spring.
+        // The initial state does not determine the number of full revolutions of an angle, so the
+        // full revolutions are added to the free angle of the spring.
         let turns = match joint.kind.measures().get(coordinate) {
             Some(&"displacement") | None => 0.0,
             Some(_) => (of(&joint.moved) / std::f64::consts::TAU).round(),
@@ -430,8 +431,9 @@ impl<'a> Writer<'a> {
         }
     }
 
-    /// Writes a wheel on the ground that rotates with a coordinate. Its kinetic energy ½·a·q̇²
-    /// equals the energy of the armature, which MuJoCo adds to the diagonal of the mass matrix.
+    /// Writes a wheel on the ground that rotates with a coordinate. The kinetic energy ½·a·q̇² of
+    /// the wheel equals the energy of the armature, which MuJoCo adds to the diagonal of the mass
+    /// matrix.
     fn rotor(&mut self, k: usize, coordinate: usize, inertia: f64, out: &mut String) {
         let joint = self.coordinate(k, coordinate).to_owned();
         let wheel = self.places.free(&format!("{joint} rotor"));

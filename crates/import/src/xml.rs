@@ -72,7 +72,8 @@ impl<'a> Element<'a> {
         elements.map(move |node| Self { node, source })
     }
 
-    /// The prefix before the colon of the name, if its name space differs from that of the root.
+    /// Returns the prefix before the colon of the name, if the name space of the element differs
+    /// from the name space of the root.
     pub(crate) fn prefix(&self) -> Option<&'a str> {
         let own = self.node.tag_name().namespace();
         let root = self.node.document().root_element();
@@ -85,7 +86,8 @@ impl<'a> Element<'a> {
         self.node.tag_name().namespace().unwrap_or_default()
     }
 
-    /// The positions of the attributes with their keys; `true` for attributes of other name spaces.
+    /// Returns the positions of the attributes with their keys. The flag is true for attributes of
+    /// other name spaces.
     pub(crate) fn keys(&self) -> impl Iterator<Item = (&'a str, bool, Range<usize>)> + use<'a> {
         self.node.attributes().map(|attribute| {
             let is_foreign = attribute.namespace().is_some();
@@ -149,8 +151,8 @@ impl<'a> Element<'a> {
     }
 }
 
-/// Parses a text. Texts that declare document types or entities, and texts that exceed the limits
-/// of depth or size, are rejected.
+/// Parses a text. Rejects texts that declare document types or entities, and texts that exceed the
+/// limits of depth or size.
 pub(crate) fn parse(source: &SourceText) -> Result<Document<'_>, Box<Diagnostic>> {
     let text = source.text();
     let refuse = |code, span, message: String, label: &str| {
@@ -199,9 +201,9 @@ pub(crate) fn parse(source: &SourceText) -> Result<Document<'_>, Box<Diagnostic>
     }
 }
 
-/// Position at which a text first exceeds a limit. Beyond the limits, the stack of the parser could
-/// overflow, or parsing could take more than linear time. The parser compares each attribute with
-/// all other attributes of its element, and each prefix with all name spaces.
+/// Returns the position at which a text first exceeds a limit. Without the limits, the stack of the
+/// parser could overflow, or parsing could take more than linear time. The parser compares each
+/// attribute with all other attributes of its element, and each prefix with all name spaces.
 fn too_much(text: &str) -> Option<(usize, String)> {
     let (mut depth, mut spaces) = (0_usize, 0);
     let tags = Tags { text, at: 0 };

@@ -115,8 +115,8 @@ impl Tree {
             let mut add = |kind| freedoms.push(Freedom { joint: k, kind });
             match joint.kind {
                 JointKind::Spherical => (0..3).for_each(|axis| add(Way::Turn(axis))),
-                // Planar joints of the tree do not move, so steps out of the plane are corrected
-                // only by the loops.
+                // Planar joints of the tree do not move. Only the loops correct steps out of the
+                // plane.
                 JointKind::Fixed | JointKind::Free | JointKind::Planar => {}
                 kind => (0..kind.measures().len()).for_each(|c| add(Way::Coordinate(c))),
             }

@@ -111,9 +111,9 @@ impl<'a> Reader<'a, '_> {
         }
     }
 
-    /// The links of a body with its joints. There is one link for each joint, or for each pair of
-    /// hinges that forms a universal joint; all links except the last one are massless. Returns the
-    /// last link.
+    /// Adds the links of a body with the joints of the body. There is one link for each joint, or
+    /// for each pair of hinges that forms a universal joint. All links except the last link are
+    /// massless. Returns the last link.
     fn chain(
         &mut self,
         name: &str,

@@ -40,8 +40,8 @@ impl<'a> Defaults<'a> {
         defaults
     }
 
-    /// The attributes of one class, and the nested classes. The nesting of classes is limited by
-    /// the depth of the file.
+    /// Reads the attributes of one class, and the nested classes. The limit on the depth of the
+    /// file also limits the nesting of classes.
     fn class(
         &mut self,
         files: &'a Files<'a>,
@@ -85,7 +85,7 @@ impl<'a> Defaults<'a> {
         self.by_name.get(name).copied()
     }
 
-    /// An attribute of a class, or of the nearest surrounding class that has it.
+    /// Returns an attribute of a class, or of the nearest surrounding class that has the attribute.
     pub(super) fn get(&self, class: usize, element: &str, key: &str) -> Option<Value<'a>> {
         let mut at = Some(class);
         while let Some(class) = at {

@@ -210,8 +210,8 @@ impl<'a> Reader<'a, '_> {
     }
 
     /// `<tendon>`: L₁ − L₁₀ = P(L₂ − L₂₀) with lengths L = Σ cᵢ·qᵢ of fixed tendons. The constraint
-    /// is a coupling if it contains two coordinates: one coordinate of each tendon, or two of the
-    /// first tendon.
+    /// is a coupling if it contains two coordinates: one coordinate of each tendon, or two
+    /// coordinates of the first tendon.
     fn coupling_of_tendons(&mut self, element: Element<'a>, name: String) -> Option<Coupling> {
         let is_active = self.is_active(element);
         let Some(first) = element.attribute("tendon1") else {

@@ -9,7 +9,8 @@ use crate::mass::Mass;
 use crate::xml::Element;
 
 impl<'a> Source<'a, '_> {
-    /// Mass of a body: its own, or the mass of its geoms.
+    /// Returns the mass of a body: the mass that the file states for the body, or the mass of the
+    /// geoms.
     pub(super) fn mass(&mut self, body: Element<'a>, items: &[Item<'a>]) -> Mass {
         let own = items.iter().find(|item| item.element.name() == "inertial");
         let own = own.filter(|_| self.compiler.from_geoms != FromGeoms::Always);
@@ -29,8 +30,8 @@ impl<'a> Source<'a, '_> {
             return None;
         };
         let mass = self.findings.not_negative(&mass, NumberKind::Other)?;
-        // The centre of mass is not the position of a joint, so its digits do not indicate the
-        // accuracy of joint positions.
+        // The centre of mass is not the position of a joint, so the digits of the centre do not
+        // indicate the accuracy of joint positions.
         let centre = match get("pos") {
             Some(value) => self.findings.vector(&value, NumberKind::Other)?,
             None => Vector3::zeros(),

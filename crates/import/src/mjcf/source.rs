@@ -46,7 +46,8 @@ impl<'a> Source<'a, '_> {
         self.files.children(element, self.findings)
     }
 
-    /// The class of an element: its own, or the class of the surrounding body.
+    /// Returns an element with the attributes of its class. An element without a class has the
+    /// class of the surrounding body.
     pub(super) fn attributes(&mut self, element: Element<'a>, around: usize) -> Attributes<'a, '_> {
         let class = match element.attribute("class") {
             Some(value) => self.class(&value),

@@ -22,7 +22,7 @@ struct Place {
 enum What {
     Link(usize),
     Joint,
-    /// A frame, with the item to which it is attached.
+    /// A frame, with the name of the item to which the frame is attached.
     Frame(Option<String>),
 }
 
