@@ -1,5 +1,5 @@
-//! Writes curves as short text. The values are rounded to a fraction of the range of the curve, and
-//! each value is written as the difference from the previous value.
+//! Writes curves as short text. Values are rounded to a fraction of the range of the curve. Each
+//! value is written as the difference from the previous value.
 
 use serde::Serialize;
 use serde::ser::{SerializeSeq, Serializer};
@@ -32,7 +32,7 @@ pub enum Channel {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FewDigits(pub f64);
 
-/// Differences between the levels of consecutive values; `None` is a gap.
+/// Differences between the levels of consecutive values. `None` is a gap.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Steps(pub Vec<Option<i64>>);
 
@@ -150,8 +150,8 @@ mod tests {
             .collect();
         let channel = Channel::new(values.iter().copied());
         for (a, b) in values.iter().zip(decoded(&channel, values.len())) {
-            // The error is at most half a level plus the rounding error of the level height, which
-            // has six digits, summed over all levels.
+            // The error is at most half a level plus the rounding error of the level height, summed
+            // over all levels. The level height has six digits.
             assert!((a - b).abs() <= 6.0 * (0.5 / LEVELS + 5e-7), "{a} {b}");
         }
     }

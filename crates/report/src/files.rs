@@ -5,11 +5,11 @@
 //! complete line and are still named `.part`. An older file with the final name does not change.
 //!
 //! A result of several files is replaced in one step, as far as the system allows this. All files
-//! are written as `.part` files, then all are renamed. Finally, files of an earlier result of the
-//! same [`Family`] are removed if the new result does not contain them.
+//! are first written as `.part` files and then renamed. Finally, the files of an earlier result of
+//! the same [`Family`] are removed, except files that the new result contains.
 //!
 //! No content is written through a symbolic link. A link at the path of a file is replaced by the
-//! file, and the target of the link does not change. Files are not removed through links, either.
+//! file, and the target of the link does not change. No file is removed through a link.
 
 mod family;
 mod lock;
@@ -47,7 +47,7 @@ pub enum FileError {
         /// The error of the operating system.
         source: io::Error,
     },
-    /// The name is not a plain file name, so that the file would be outside the directory.
+    /// The name is not a plain file name. The file would be outside of the directory.
     #[error("`{name}` is not the name of a file inside `{}`: omit directories", directory.display())]
     Name {
         /// The name.
@@ -73,7 +73,7 @@ pub enum FileError {
         /// The path.
         path: PathBuf,
     },
-    /// Files would be replaced that pfaff has not written.
+    /// Files would be replaced that were not written by pfaff.
     #[error(
         "`{}` was not written by pfaff; use --force to replace it, or choose another path",
         paths_of(paths)
@@ -107,8 +107,8 @@ impl FileError {
         }
     }
 
-    /// Whether the path is the cause of the error: no file can be created there, or an existing
-    /// file must not be replaced. Otherwise writing has failed.
+    /// Whether the path is the cause of the error: no file can be created at the path, or an
+    /// existing file must not be replaced. Otherwise, a write operation has failed.
     #[must_use]
     pub fn is_place(&self) -> bool {
         match self {
@@ -136,9 +136,9 @@ fn paths_of(paths: &[PathBuf]) -> String {
     names.join("`, `")
 }
 
-/// Returns names of files for these names, which differ also on systems that ignore the case of
-/// letters. Characters that file names may not have are replaced, and the number of the name, from
-/// 1, follows.
+/// Returns file names for these names. The file names differ even on systems that ignore the case
+/// of letters. Characters that are not permitted in file names are replaced, and the index of the
+/// name (1-based) is appended.
 ///
 /// ```
 /// let stems = pfaff_report::file_stems(["arm", "a/b", "Arm"].into_iter());
@@ -170,9 +170,9 @@ pub struct OutputDirectory {
     parts: Parts,
     unfinished: FailurePolicy,
     written: Arc<Mutex<WrittenFiles>>,
-    /// The path of this directory in the one for which `written` was created.
+    /// The path of this directory relative to the directory for which `written` was created.
     inner: PathBuf,
-    /// Whether files that pfaff has not written may be replaced.
+    /// Whether files that were not written by pfaff may be replaced.
     is_forced: bool,
     /// Excludes other processes until the last clone of the directory is dropped.
     _lock: Option<Arc<File>>,
@@ -187,7 +187,7 @@ pub struct OutputDirectory {
 pub enum Replaces {
     /// No file.
     Nothing,
-    /// Files that pfaff has written.
+    /// Files that were written by pfaff.
     Ours,
     /// Every file.
     Files,
@@ -202,7 +202,7 @@ enum Parts {
     Own,
 }
 
-/// Treatment of unfinished files after a failure, or when the process is ended.
+/// Treatment of unfinished files after a failure or at the end of the process.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum FailurePolicy {
     /// The complete lines remain in the file.
@@ -232,7 +232,7 @@ impl WrittenFiles {
     }
 }
 
-/// Time to wait for the end of a write when a run is ended immediately.
+/// Time to wait for the end of a write operation when a run must end immediately.
 const PATIENCE: Duration = Duration::from_millis(100);
 
 /// Time between two attempts.
@@ -308,24 +308,24 @@ impl OutputDirectory {
         Ok(Self::create(parent)?.with_own_parts().whole())
     }
 
-    /// Removes unfinished files also after a failure. This is for files that are only useful if
-    /// they are complete.
+    /// Unfinished files are then removed even after a failure. Use this for files that are only
+    /// useful if they are complete.
     #[must_use]
     pub fn whole(mut self) -> Self {
         self.unfinished = FailurePolicy::Removed;
         self
     }
 
-    /// Allows several processes to write the same files at the same time: unfinished files have
-    /// separate names, and the file that is finished last remains.
+    /// Allows several processes to write the same files at the same time. Unfinished files then
+    /// have separate names, and the file that is finished last remains.
     #[must_use]
     pub fn with_own_parts(mut self) -> Self {
         self.parts = Parts::Own;
         self
     }
 
-    /// Like [`Self::exclusive`], but processes that share the directory do not exclude each other;
-    /// see [`Self::with_own_parts`].
+    /// Works like [`Self::exclusive`], but processes that share the directory do not exclude each
+    /// other; see [`Self::with_own_parts`].
     ///
     /// # Errors
     /// Returns the same errors as [`Self::exclusive`].
@@ -337,16 +337,16 @@ impl OutputDirectory {
         })
     }
 
-    /// Allows files that pfaff has not written to be replaced: [`Self::check_ours`] then returns no
-    /// error.
+    /// Permits the replacement of files that were not written by pfaff. [`Self::check_ours`] then
+    /// returns no error.
     #[must_use]
     pub fn forced(mut self) -> Self {
         self.is_forced = true;
         self
     }
 
-    /// Opens a directory inside this one, and creates it if it does not exist. Both directories end
-    /// together: see [`Self::abandon`].
+    /// Opens a subdirectory, and creates it if it does not exist. [`Self::abandon`] ends the
+    /// writing in both directories together.
     ///
     /// # Errors
     /// - [`FileError::Name`]: the name is empty or contains a directory.
@@ -370,8 +370,8 @@ impl OutputDirectory {
         &self.path
     }
 
-    /// Returns an error if a file with a name of this family was not written by pfaff, unless the
-    /// directory is [`Self::forced`].
+    /// Checks that all files with names of this family were written by pfaff. If the directory is
+    /// [`Self::forced`], there is no check.
     ///
     /// # Errors
     /// - [`FileError::Foreign`]
@@ -398,8 +398,8 @@ impl OutputDirectory {
         names
     }
 
-    /// The names of files in the directory that pfaff has written and that do not belong to this
-    /// family.
+    /// Returns the names of files in the directory that were written by pfaff and do not belong to
+    /// this family.
     #[must_use]
     pub fn others(&self, family: Family) -> Vec<String> {
         let mut names = self.names();
@@ -407,7 +407,7 @@ impl OutputDirectory {
         names
     }
 
-    /// Starts a file; an older file with the same name is kept until this one is finished.
+    /// Starts a file. An older file with the same name is kept until the new file is finished.
     ///
     /// # Errors
     /// - [`FileError::Name`]: the name is empty or contains a directory.
@@ -421,8 +421,8 @@ impl OutputDirectory {
         Ok(file)
     }
 
-    /// Starts a temporary file, which is read again with [`OutputFile::written`] and removed when
-    /// it is dropped.
+    /// Starts a temporary file. [`OutputFile::written`] reads the content of the file. The file is
+    /// removed when it is dropped.
     ///
     /// # Errors
     /// Returns the same errors as [`OutputDirectory::file`].
@@ -448,7 +448,7 @@ impl OutputDirectory {
     }
 
     /// Finishes these files, and removes other files of this family that belong to an earlier
-    /// result: see [`Self::keep`]. All files are written before the first one is renamed, so that
+    /// result; see [`Self::keep`]. All files are written before the first file is renamed, so that
     /// the earlier result remains if the disk is full.
     ///
     /// # Errors
@@ -466,10 +466,10 @@ impl OutputDirectory {
         self.keep(family, &names)
     }
 
-    /// Removes the files of this family that are not in `files`, including those with the name
-    /// `.part`. These files belong to an earlier result and could be mistaken for a part of the new
-    /// result. A file that pfaff has not written is not removed. Returns the names of the removed
-    /// files.
+    /// Removes the files of this family that are not in `files`, including unfinished files with
+    /// the extension `.part`. These files belong to an earlier result and could be mistaken for a
+    /// part of the new result. A file that was not written by pfaff is not removed. Returns the
+    /// names of the removed files.
     ///
     /// # Errors
     /// - [`FileError::Refused`]: a file cannot be removed.
@@ -509,11 +509,12 @@ impl OutputDirectory {
         self.abandon_with(|_| ())
     }
 
-    /// Like [`Self::abandon`]. In addition, `name` is written with this content unless it has
-    /// already been written, and files of the family that were not written are removed.
+    /// Works like [`Self::abandon`]. In addition, the file `name` is written with this content,
+    /// unless it has already been written. Files of the family that this process has not written
+    /// are removed.
     pub fn abandon_as(&self, name: &str, content: &[u8], family: Family) -> bool {
         self.abandon_with(|written| {
-            // The process ends, whether or not this succeeds.
+            // The process ends even if this fails.
             if !written.has(name) {
                 let _ = self.put(name, content);
             }
@@ -564,7 +565,7 @@ impl OutputDirectory {
         })
     }
 
-    /// Creates the file with the name `.part`.
+    /// Creates the file with the extension `.part`.
     fn begin(&self, name: &OsStr) -> Result<OutputFile, FileError> {
         self.check_name(name)?;
         let path = self.path.join(name);
@@ -589,8 +590,8 @@ impl OutputDirectory {
     }
 }
 
-/// Creates a file; any existing item with this name, including a link, is removed first. The file
-/// is also readable, so that the last complete line can be found.
+/// Creates a file. An existing item with this name, including a link, is removed first. The file is
+/// also readable, so that the last complete line can be found.
 fn new_file(path: &Path) -> io::Result<File> {
     match fs::remove_file(path) {
         Err(e) if e.kind() != ErrorKind::NotFound => return Err(e),
@@ -600,7 +601,8 @@ fn new_file(path: &Path) -> io::Result<File> {
     options.read(true).write(true).create_new(true).open(path)
 }
 
-/// A name for an unfinished file that is different for each process and thread on every machine.
+/// Returns a name for an unfinished file. The name is different for each process and thread on
+/// every machine.
 pub(crate) fn own_part(path: &Path) -> PathBuf {
     static COUNT: AtomicU64 = AtomicU64::new(0);
     let count = COUNT.fetch_add(1, Ordering::Relaxed);
@@ -625,8 +627,8 @@ fn patiently<T>(mutex: &Mutex<T>) -> Option<MutexGuard<'_, T>> {
     }
 }
 
-/// A file that is being written, buffered. Errors of writing contain its path. The file is removed
-/// if this value is dropped before the file is finished.
+/// A file that is being written, with a buffer. Errors of write operations contain the path of the
+/// file. The file is removed if this value is dropped before the file is finished.
 #[derive(Debug)]
 pub struct OutputFile {
     content: Arc<Mutex<Content>>,
@@ -672,9 +674,9 @@ impl OutputFile {
         flushed.map_err(FileError::refused("write", &content.part))
     }
 
-    /// Like [`Self::finish`], for a run that stopped early. The written part gets the final name.
-    /// If a write failed, the file ends after the last complete line. The summary of the run states
-    /// that it is partial.
+    /// Works like [`Self::finish`], for a run that stopped early. The written part gets the final
+    /// name. If a write failed, the file ends after the last complete line. The summary of the run
+    /// states that it is partial.
     ///
     /// # Errors
     /// - [`FileError::Refused`]: the end is missing, or the file could not be renamed.
@@ -696,8 +698,8 @@ impl OutputFile {
         File::open(&part).map_err(FileError::refused("read", &part))
     }
 
-    /// Waits until the content written so far is on the disk, not only passed to the operating
-    /// system.
+    /// Waits until the content written so far is on the disk, and not only in memory of the
+    /// operating system.
     ///
     /// # Errors
     /// - [`FileError::Refused`]: the content could not be written completely.
@@ -754,8 +756,8 @@ impl Content {
         Ok(self.path.clone())
     }
 
-    /// Gives the complete lines the final name, if the file is still being written and a part of it
-    /// is useful.
+    /// Gives the file with its complete lines the final name, if the file is still being written
+    /// and a part of the file is useful.
     fn abandon(&mut self) {
         if self.unfinished == FailurePolicy::Removed {
             self.remove();
@@ -766,7 +768,7 @@ impl Content {
         }
     }
 
-    /// Applies `action` to the buffer; after the first error no more data are written.
+    /// Applies `action` to the buffer. After the first error, no more data are written.
     fn with<T>(
         &mut self,
         action: impl FnOnce(&mut BufWriter<File>) -> io::Result<T>,
@@ -786,7 +788,8 @@ impl Content {
         done
     }
 
-    /// Removes the incomplete line after a failed write; no more data are written afterwards.
+    /// Removes the incomplete line after a failed write operation. Afterwards, no more data are
+    /// written.
     fn close(&mut self, refusal: io::Error) {
         if let Ok(buffer) = mem::replace(&mut self.buffer, Err(refusal)) {
             let (mut file, _) = buffer.into_parts();

@@ -21,8 +21,8 @@ struct DocumentWithHead<'d, D> {
     document: &'d D,
 }
 
-/// Writes a document after the version of its format and the version of the program, indented, with
-/// a line feed at the end.
+/// Writes the version of the format, the version of the program, and then the document. The JSON is
+/// indented and ends with a line feed.
 ///
 /// # Errors
 /// Returns an error if the writer fails, or if the document is not an object.
@@ -53,8 +53,8 @@ pub fn read_json<T: DeserializeOwned>(text: &str) -> Result<T, String> {
     serde_json::from_str(text).map_err(|e| e.to_string())
 }
 
-/// A part of a document as text, without a header and in one line, for programs that process
-/// documents in parts.
+/// Returns a part of a document as text in one line, without a header. This is for programs that
+/// process documents in parts.
 ///
 /// # Errors
 /// Returns an error if the part cannot be written.
@@ -74,7 +74,7 @@ pub fn part_as_json(part: &impl Serialize) -> io::Result<String> {
 #[derive(Clone, Debug, PartialEq)]
 pub struct ByName<T>(pub Vec<(String, T)>);
 
-/// No names; a type of the values without a default suffices.
+/// An object without names. The type of the values need not have a default.
 impl<T> Default for ByName<T> {
     fn default() -> Self {
         Self(Vec::new())

@@ -1,6 +1,6 @@
-//! The largest values of reactions over a run. Only cells of the table with determined values
-//! count. These cells are known only after the run, so a peak is stored for each interval between
-//! two boundaries.
+//! The largest values of reactions over a run. Only determined values in the table count. It is not
+//! known until the end of the run which values are determined, so a peak is stored for each
+//! interval between two boundaries.
 
 use solvability::{Value, VerdictTrack};
 
@@ -39,8 +39,8 @@ impl PeakRecorder {
         }
     }
 
-    /// Adds a boundary. If it is before the last row, the values on both sides are separated only
-    /// from the next row on.
+    /// Adds a boundary. If the boundary is before the last row, the values on both sides are
+    /// separated only from the next row onwards.
     pub fn cut(&mut self, t: f64) {
         let place = self.cuts.partition_point(|cut| *cut < t);
         if self.cuts.get(place) != Some(&t) {
@@ -68,8 +68,9 @@ impl PeakRecorder {
         }
     }
 
-    /// The peak of each column; `None` if no cell is determined. The verdicts on a column are
-    /// `None` if it is determined on the whole run, which has this extent (s).
+    /// Returns the peak of each column, or `None` for a column without a determined value. The
+    /// verdicts on a column are `None` if the column is determined on the whole run. `extent` is
+    /// the time interval of the run (s).
     #[must_use]
     pub fn finish(
         &self,
@@ -84,7 +85,7 @@ impl PeakRecorder {
                 let number = value(number, t).determined();
                 Some([number.filter(|number| number.is_finite())?, t])
             };
-            // If several values are equal, the first one is returned.
+            // If several values are equal, the first value is returned.
             let largest = peaks.iter().filter_map(determined).reduce(|best, peak| {
                 if peak[0].abs() > best[0].abs() {
                     peak

@@ -9,7 +9,7 @@ const FRAMES_MAX: usize = 1000;
 /// Largest number of stored values, over all rows.
 const NUMBERS_MAX: usize = 4_000_000;
 
-/// Smallest number of stored rows for any mechanism, if the run has at least this number of rows.
+/// Smallest number of stored rows for any mechanism. A run with fewer rows stores all rows.
 const FRAMES_MIN: usize = 24;
 
 /// An output row.
@@ -52,7 +52,7 @@ impl Frame {
 pub struct Recording {
     /// The stored rows, in the order of time.
     pub frames: Vec<Frame>,
-    /// Of each group of this number of rows, one row is stored. The row at the end is also stored.
+    /// One row is stored for each group of this number of rows. The row at the end is also stored.
     pub stride: usize,
     seen: usize,
     t_end: f64,
@@ -100,7 +100,7 @@ mod tests {
     #[test]
     fn short_runs_are_kept_whole_and_long_ones_thinned() {
         assert_eq!(kept(&mut Recording::new(200.0, 201.0, 60), 201), 201);
-        // 100 001 rows at a stride of 101, and the last one.
+        // 100 001 rows at a stride of 101, and the last row.
         let mut long = Recording::new(1e5, 100_001.0, 60);
         assert_eq!((long.stride, kept(&mut long, 100_001)), (101, 992));
         // 1e5 values in a row: 40 rows.

@@ -1,6 +1,6 @@
-//! Tables of a run as CSV: one header, then one line per instant. Lines are written as they are
-//! computed. Numbers are written with the shortest text that is read as the same bits; a value that
-//! does not exist is `NaN`.
+//! Tables of a run as CSV: one header, then one line per instant. Each line is written when its
+//! values have been computed. A number is written as the shortest text that is read as the same
+//! bits. A value that does not exist is `NaN`.
 //!
 //! The caller chooses the times and the destination of rows.
 
@@ -98,7 +98,7 @@ pub fn matrix_table<'m>(
 pub struct Table<W: Write> {
     name: &'static str,
     out: BufWriter<W>,
-    /// The values of the units of the columns in SI units; empty for SI units.
+    /// The units of the columns, each as a value in SI units. The list is empty for SI units.
     units: Vec<f64>,
     /// Buffer for one line, reused.
     line: Vec<u8>,
@@ -120,9 +120,9 @@ impl<W: Write> Table<W> {
         Ok(table)
     }
 
-    /// Writes the header of a table over time: `t`, then these names with their SI units. With
-    /// units of a scene, the numbers are in these units, and the header contains them, as in
-    /// `crank.x (mm)`.
+    /// Writes the header of a table over time: `t`, then these names with their SI units. If a
+    /// scene chooses other units, the numbers are in these units, and the header contains the
+    /// units, as in `crank.x (mm)`.
     ///
     /// # Errors
     /// - [`TableError::Write`]: the writer failed.
@@ -152,7 +152,7 @@ impl<W: Write> Table<W> {
         })
     }
 
-    /// Writes a row of numbers, which need no quotes.
+    /// Writes a row of numbers. Numbers need no quotes.
     ///
     /// # Errors
     /// - [`TableError::Write`]: the writer failed.
@@ -160,7 +160,7 @@ impl<W: Write> Table<W> {
         self.numbers(values, |_| true)
     }
 
-    /// Writes a row of numbers; a number that does not exist is an empty cell.
+    /// Writes a row of numbers. A number that does not exist is an empty cell.
     fn row_with_gaps(&mut self, values: &[f64]) -> Result<(), TableError> {
         self.numbers(values, |value| !value.is_nan())
     }

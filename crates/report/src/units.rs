@@ -1,6 +1,6 @@
 //! Units that a scene chooses, for tables and printed answers.
 
-/// Units of lengths and angles that a scene chooses, with their values in metres and radians;
+/// Units of lengths and angles that a scene chooses, with their values in metres and radians.
 /// `None` for SI units.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct SceneUnits {
@@ -11,7 +11,8 @@ pub struct SceneUnits {
 }
 
 impl SceneUnits {
-    /// Returns the unit of the scene for an SI unit, and its value in the SI unit.
+    /// Returns the unit of the scene that replaces an SI unit, and the value of this unit in the SI
+    /// unit.
     ///
     /// ```
     /// let units = pfaff_report::SceneUnits { length: Some(("mm", 1e-3)), angle: None };

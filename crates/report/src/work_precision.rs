@@ -89,8 +89,8 @@ impl WorkPrecisionRow {
         }
     }
 
-    /// The larger error of position and velocity, if the run reached its end and there is a
-    /// reference.
+    /// Returns the larger error of position and velocity. Returns `None` if the run did not reach
+    /// its end or there is no reference.
     #[must_use]
     pub fn motion_error(&self) -> Option<f64> {
         let error = self.errors[0].max(self.errors[1]);

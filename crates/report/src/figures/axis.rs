@@ -21,11 +21,12 @@ pub(super) struct Tick {
 /// Larger values cannot be drawn, because the difference of two such values could overflow.
 pub(super) const DRAWABLE: f64 = 1e300;
 
-/// A range narrower than this, relative to its values, contains only rounding errors.
+/// Smallest width of a range relative to its values. A narrower range contains only rounding
+/// errors.
 const RESOLUTION: f64 = 1e-12;
 
-/// Range of values that are written without a power of ten. Labels then have at most four digits
-/// before the decimal point, or at most one zero directly after it.
+/// Range of values that are written without a power of ten. In this range, labels have at most four
+/// digits before the decimal point, or at most one zero directly after the decimal point.
 const PLAIN: std::ops::Range<f64> = 1e-2..1e4;
 
 /// Whether a value can be drawn.
@@ -45,7 +46,7 @@ pub(super) fn range(values: impl IntoIterator<Item = f64>) -> Option<[f64; 2]> {
 }
 
 impl Axis {
-    /// An axis over exactly this range, with about `count` ticks.
+    /// Creates an axis over exactly this range, with about `count` ticks.
     pub(super) fn over(range: [f64; 2], count: usize) -> Self {
         let [min, max] = widened(range);
         let size = min.abs().max(max.abs());
@@ -73,7 +74,8 @@ impl Axis {
         }
     }
 
-    /// Like [`Self::over`], with a margin on both sides, so that extremes do not touch the frame.
+    /// Works like [`Self::over`], but adds a margin on both sides, so that extremes do not touch
+    /// the frame.
     pub(super) fn around(range: [f64; 2], count: usize) -> Self {
         let [min, max] = widened(range);
         let margin = 0.06 * (max - min);
@@ -99,7 +101,8 @@ impl Axis {
     }
 }
 
-/// A range of nonzero width. If the range is a single value, space is added on both sides.
+/// Returns a range of nonzero width. If the given range is a single value, space is added on both
+/// sides.
 fn widened([min, max]: [f64; 2]) -> [f64; 2] {
     let size = min.abs().max(max.abs());
     if max - min > RESOLUTION * size && max - min >= f64::MIN_POSITIVE {

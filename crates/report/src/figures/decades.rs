@@ -9,15 +9,15 @@ pub(super) enum Unit {
     Number,
     /// Times (s).
     Seconds,
-    /// No labels, because the neighbouring axis shows them.
+    /// No labels, because the neighbouring axis has the same labels.
     Untold,
 }
 
 /// Space beyond the first and the last value, in decades.
 const MARGIN: f64 = 0.2;
 
-/// An axis over these logarithms. It has at least two and at most `count` + 1 labels at powers of
-/// ten.
+/// Creates an axis over these logarithms. The axis has at least two and at most `count` + 1 labels
+/// at powers of ten.
 pub(super) fn decades(logarithms: impl IntoIterator<Item = f64>, unit: Unit, count: i32) -> Axis {
     let [low, high] = range(logarithms).unwrap_or([0.0, 1.0]);
     let (mut low, mut high) = (low - MARGIN, high + MARGIN);

@@ -1,6 +1,7 @@
 //! The drawing model that pages and figures share: outlines of bodies, joints as symbols that move
-//! with a body, wheels and applied forces. A page draws the model at any time of a run, an SVG
-//! figure at one time. Positions that do not move with a body are given for each frame of the run.
+//! with a body, wheels and applied forces. A page draws the model at any time of a run. An SVG
+//! figure shows the model at one time. Positions that do not move with a body are given for each
+//! frame of the run.
 //!
 //! All points of the model have coordinates in the frame of a body. The `Projection` of the model
 //! converts them to points of the picture.
@@ -139,7 +140,7 @@ impl DrawnSite {
         matches!(self.symbol, "block" | "slot")
     }
 
-    /// Position of the symbol; a block is drawn at its present position.
+    /// Position of the symbol. A block is drawn at its present position.
     pub(crate) fn shown(&self) -> &Place {
         match &self.end {
             Some(end) if self.symbol != "rod" => end,
@@ -184,7 +185,7 @@ impl DrawingModel {
         (hull(&flat.collect::<Vec<_>>()), 0.0)
     }
 
-    /// The axis of a symbol in space; it is shortened by the projection.
+    /// The axis of a symbol in space. The projection shortens the axis.
     pub(crate) fn axis(&self, site: &DrawnSite) -> Option<[f64; 2]> {
         let Some(Heading::Along(direction)) = &site.axis else {
             return None;
@@ -225,8 +226,8 @@ pub struct Stage<'a> {
 }
 
 impl Stage<'_> {
-    /// The drawing of the bodies and joints of this part, and of the forces and markers that act on
-    /// these bodies in `whole`.
+    /// Returns the drawing of the bodies and joints of this part. The drawing includes the forces
+    /// that act on these bodies and the markers on these bodies in `whole`.
     #[must_use]
     pub fn drawing(&self, whole: &Mechanism) -> DrawingModel {
         let forces = DrawnForce::all(whole, self.bodies);
@@ -419,8 +420,9 @@ impl Stage<'_> {
         }
     }
 
-    /// A point or a direction of a joint. It is given in the axes of the first body in `carriers`
-    /// in which it is constant to within `known`, otherwise for each frame of the run.
+    /// Returns a point or a direction of a joint. If the point or direction is constant to within
+    /// `known` in the axes of a body in `carriers`, it is given in the axes of the first such body.
+    /// Otherwise, it is given for each frame of the run.
     fn place(
         &self,
         id: ConstraintId,
@@ -465,8 +467,8 @@ impl Stage<'_> {
         }
         let mut last: f64 = 0.0;
         let all = self.every(id, angle);
-        // An axis has no sense, so its angle is determined up to multiples of π. Each angle is the
-        // value nearest to the previous angle.
+        // An axis has no sense, so its angle is determined only up to multiples of π. Each angle is
+        // the value nearest to the previous angle.
         let unwound = all.into_iter().map(|a| {
             last = a + std::f64::consts::PI * ((last - a) / std::f64::consts::PI).round();
             last
@@ -552,7 +554,8 @@ type OfSite<'a> = dyn Fn(&Site) -> [f64; 3] + 'a;
 /// Converts ground axes to the axes of the coordinates of a body.
 type Local = dyn Fn(BodyRef, [f64; 3], &Scratch) -> [f64; 3];
 
-/// A global point relative to the centre of mass of a body, in the axes of its coordinates.
+/// Converts a global point to a point relative to the centre of mass of a body, in the axes of the
+/// coordinates of the body.
 fn local(body: BodyRef, point: [f64; 3], s: &Scratch) -> [f64; 3] {
     body.moving().map_or(point, |k| s.bodies.to_local(k, point))
 }

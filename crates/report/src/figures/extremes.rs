@@ -24,7 +24,8 @@ const BELOW: f64 = 46.0;
 /// Number of panels in a row.
 const COLUMNS: usize = 2;
 
-/// Range of errors, as powers of ten; values outside, including zero, are drawn at the edge.
+/// Range of errors, as powers of ten. Values outside of this range, including zero, are drawn at
+/// the edge.
 const SHOWN: [f64; 2] = [-17.0, 1.0];
 
 /// One panel: errors over a varied parameter.
@@ -34,15 +35,15 @@ pub struct Extremes<'a> {
     pub title: &'a str,
     /// Name of the varied parameter.
     pub varied: &'a str,
-    /// Names of curves with their points, each given by the parameter value and the error.
+    /// Curves by name. Each point of a curve is a parameter value and an error.
     pub series: Vec<(&'a str, Vec<[f64; 2]>)>,
     /// Largest accepted error, if it is the same for all cases.
     pub bound: Option<f64>,
 }
 
-/// Draws errors over varied parameters, panel by panel; returns an empty text if there are no
+/// Draws errors over varied parameters, panel by panel. Returns an empty text if there are no
 /// panels. A dashed line is the bound. If there are several errors at one parameter value, the
-/// largest one is drawn. NaN is not drawn.
+/// largest error is drawn. NaN is not drawn.
 #[must_use]
 pub fn extremes(panels: &[Extremes<'_>]) -> String {
     let plots: Vec<Plot<'_>> = panels.iter().map(Plot::of).collect();

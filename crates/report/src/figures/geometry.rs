@@ -17,7 +17,8 @@ use super::symbol::Symbol;
 /// Larger coordinates cannot be drawn, because their squares would overflow.
 const LIMIT: f64 = 1e150;
 
-/// Evaluates poses, if q is a configuration that can be drawn.
+/// Evaluates the poses of the bodies. Returns an error if q is not a configuration that can be
+/// drawn.
 pub(crate) fn posed(
     mechanism: &Mechanism,
     t: f64,
@@ -50,7 +51,7 @@ pub(crate) struct Site {
     pub(crate) place: [f64; 3],
     pub(crate) symbol: Symbol,
     /// Point at which the only force of the joint acts on the other body. If there is no such
-    /// point, the reference point.
+    /// point, this is the reference point.
     pub(crate) end: [f64; 3],
     /// Whether the joint or drive connects a body to the ground.
     pub(crate) grounded: bool,
@@ -153,16 +154,16 @@ pub(crate) fn site(mechanism: &Mechanism, id: ConstraintId, s: &Scratch) -> Site
     }
 }
 
-/// If the ratio differs from one by less than this value, no wheels are drawn, because the
-/// rotations are equal.
+/// Smallest difference between the ratio and one at which wheels are drawn. If the difference is
+/// smaller, the rotations are equal.
 const LEAST_SLIP: f64 = 1e-2;
 
-/// The contact point of two wheels, if the second body rotates `ratio` times as fast as the first
-/// one: r_i·ω_i = −r_j·ω_j for external contact, r_i·ω_i = r_j·ω_j for internal contact. The ratio
-/// is the torque on the first body, because the coefficient of the second body in a row of
+/// Returns the contact point of two wheels. The second body rotates `ratio` times as fast as the
+/// first body: r_i·ω_i = −r_j·ω_j for external contact, r_i·ω_i = r_j·ω_j for internal contact. The
+/// ratio is the torque on the first body, because the coefficient of the second body in a row of
 /// rotations is one.
 fn mesh(group: &ConstraintGroup, ratio: f64, s: &Scratch) -> Option<([f64; 3], [Pitch; 2])> {
-    // The centre of a ring that is part of the ground is on the carrier.
+    // If a ring is part of the ground, its centre is on the carrier.
     let wheel = |slot: usize| {
         let around = [slot, 2].map(|slot| group.bodies.get(slot)?.moving());
         let k = around[0].or(around[1])?;
@@ -193,8 +194,8 @@ fn mesh(group: &ConstraintGroup, ratio: f64, s: &Scratch) -> Option<([f64; 3], [
 /// Normal of the plane.
 const UPRIGHT: [f64; 3] = [0.0, 0.0, 1.0];
 
-/// The pitch point of a gear mesh on the line between the centres of two wheels, at a distance from
-/// the first centre, and the pitch circles.
+/// Returns the pitch point and the pitch circles of a gear mesh. The pitch point is on the line
+/// between the centres of the two wheels, at a given distance from the first centre.
 fn teeth_of(
     points: &[(BodyRef, [f64; 3])],
     first: [f64; 3],
@@ -223,9 +224,10 @@ fn teeth_of(
         .then_some((point, circles))
 }
 
-/// The circle of a wheel that rolls on the ground, computed from the centre, the contact point and
-/// the forces of the rows. The forces of the last two rows are along and across the track. The axis
-/// of the wheel is perpendicular to the track and to the radius.
+/// Returns the circle of a wheel that rolls on the ground. The circle is computed from the centre,
+/// the contact point and the forces of the rows. The forces of the last two rows are along the
+/// track and across the track. The axis of the wheel is perpendicular to the track and to the
+/// radius.
 fn rolling(
     points: &[(BodyRef, [f64; 3])],
     map: &Matrix,
@@ -277,7 +279,7 @@ fn borne(mechanism: &Mechanism, id: ConstraintId, all: &[Site], s: &Scratch) -> 
     points.into_iter().take(2).filter_map(wheel).collect()
 }
 
-/// A direction of the ground in the axes of the coordinates of a body.
+/// Converts a direction in ground axes to the axes of the coordinates of a body.
 pub(crate) fn turned_back(body: BodyRef, d: [f64; 3], s: &Scratch) -> [f64; 3] {
     let along = |axis: [f64; 3]| (0..3).map(|k| axis[k] * d[k]).sum();
     body.moving().map_or(d, |k| s.bodies.axes(k).map(along))
@@ -334,8 +336,9 @@ impl Force {
         }
     }
 
-    /// Distance from the first of two points at which the line of action crosses the line between
-    /// the points (m); `None` if the force acts along this line.
+    /// Returns the distance from the first point to the intersection of the line of action with the
+    /// line through both points (m). Returns `None` if the force acts along the line through both
+    /// points.
     fn teeth(&self, first: [f64; 3], second: [f64; 3]) -> Option<f64> {
         let apart = difference(second, first);
         let length = norm(&apart);
@@ -349,8 +352,8 @@ impl Force {
         [-self.direction[1], self.direction[0], 0.0]
     }
 
-    /// The point of the line of action nearest to the reference point. Its offset from this point
-    /// satisfies offset × direction = arm.
+    /// Returns the point of the line of action that is nearest to the reference point. The offset
+    /// between the two points satisfies offset × direction = arm.
     fn point_nearest(&self, place: [f64; 3]) -> [f64; 3] {
         let [x, y, _] = self.perpendicular();
         let [from_x, from_y, z] = place;
@@ -358,8 +361,8 @@ impl Force {
     }
 }
 
-/// The second point of a joint, such as the other end of a rod, if the definition of the joint has
-/// two points.
+/// Returns the second point of a joint, such as the other end of a rod. Returns `None` if the
+/// definition of the joint does not have two points.
 fn other_end(mechanism: &Mechanism, id: ConstraintId, place: [f64; 3], s: &Scratch) -> [f64; 3] {
     let points = mechanism.points(id);
     let end = points.get(1).map(|&(body, point)| match body {

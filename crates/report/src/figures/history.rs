@@ -1,4 +1,4 @@
-//! Quantities over time, one panel for each.
+//! Quantities over time, with one panel for each quantity.
 
 use super::axis::{Axis, drawable, range};
 use super::plot::{Entry, Frame, Labels, legend, legend_height};
@@ -8,11 +8,11 @@ use super::svg::{Svg, text_width};
 /// A curve over time. If `t` and `y` have different lengths, the end of the longer list is omitted.
 #[derive(Clone, Copy, Debug)]
 pub struct Series<'a> {
-    /// Name in the legend; if empty, the curve is not in the legend.
+    /// Name in the legend. If the name is empty, the legend does not contain the curve.
     pub label: &'a str,
     /// Times (s).
     pub t: &'a [f64],
-    /// Values; a value that is not finite is a gap.
+    /// Values. A value that is not finite is a gap.
     pub y: &'a [f64],
     /// Appearance of the curve.
     pub style: Style,

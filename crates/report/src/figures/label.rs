@@ -11,7 +11,7 @@ pub(super) struct Rect {
 }
 
 impl Rect {
-    /// Area of the overlap with another.
+    /// Area of the overlap with another rectangle.
     pub(super) fn overlap(&self, other: &Self) -> f64 {
         let along = |k: usize| {
             let reach = self.half[k] + other.half[k] - (self.centre[k] - other.centre[k]).abs();
@@ -36,7 +36,8 @@ pub(super) struct Request<'a> {
 
 /// Distances from the anchor (px).
 const DISTANCES: [f64; 4] = [14.0, 24.0, 36.0, 52.0];
-/// Directions: right, left, above, below; the upper right is preferred if several are equally good.
+/// Directions from the anchor, with y downwards: upper right, upper left, lower right, lower left,
+/// above, below. If several positions are equally good, the first of these directions is used.
 const DIRECTIONS: [[f64; 2]; 6] = [
     [1.0, -0.6],
     [-1.0, -0.6],
@@ -46,8 +47,8 @@ const DIRECTIONS: [[f64; 2]; 6] = [
     [0.0, 1.0],
 ];
 
-/// Positions names in the given order; `None` if the name would overlap another name or leave the
-/// page at every position.
+/// Returns the positions of names, which are placed in the given order. A position is `None` if, at
+/// every candidate position, the name would overlap another name or leave the page.
 pub(super) fn place(page: &Rect, symbols: &[Rect], requests: &[Request<'_>]) -> Vec<Option<Rect>> {
     let mut taken: Vec<Rect> = Vec::new();
     let mut places = Vec::with_capacity(requests.len());
@@ -68,7 +69,7 @@ pub(super) fn place(page: &Rect, symbols: &[Rect], requests: &[Request<'_>]) -> 
     places
 }
 
-/// Positions around the anchor, the nearest first.
+/// Returns positions around the anchor. The nearest positions come first.
 fn candidates(request: &Request<'_>) -> impl Iterator<Item = Rect> {
     let Request { text, size, anchor } = *request;
     let half = [0.5 * text_width(text, size) + 1.5, 0.5 * size + 1.0];

@@ -1,5 +1,5 @@
-//! The drawing of a mechanism as an SVG figure, to scale: the [`DrawingModel`] at one time, with
-//! names and a legend.
+//! The drawing of a mechanism as an SVG figure, to scale. The figure shows the [`DrawingModel`] at
+//! one time, with names and a legend.
 
 mod view;
 
@@ -47,10 +47,10 @@ const TITLE: f64 = 30.0;
 /// Sizes of text (px), as in the style sheet.
 const NAME_SIZE: f64 = 13.0;
 const BODY_SIZE: f64 = 12.0;
-/// If there are more names than this, the drawing would be unreadable, and only the tool tips
-/// contain the names.
+/// Largest number of names in a drawing. With more names, the drawing would be unreadable, so only
+/// the tool tips contain the names.
 const MAX_LABELS: usize = 300;
-/// Height of a line of the legend and width of a symbol in it (px).
+/// Height of a line of the legend, and width of a symbol in the legend (px).
 const LEGEND: [f64; 2] = [36.0, 50.0];
 /// Length of a rail beyond its block, and half the length of an axis that is seen from the side
 /// (px).
@@ -83,7 +83,7 @@ pub fn mechanism(
     labelled_mechanism(mechanism, t, q, marking, Labels::Names)
 }
 
-/// Like [`mechanism()`], with other labels.
+/// Works like [`mechanism()`], with other labels.
 ///
 /// # Errors
 /// Returns the same errors as [`mechanism()`].
@@ -564,7 +564,7 @@ fn pair([x, y]: [f64; 2]) -> String {
     format!("{} {}", number(x), number(y))
 }
 
-/// A time without digits that are rounding errors: 0.3, not 0.30000000000000004.
+/// Writes a time without digits that are rounding errors: 0.3, not 0.30000000000000004.
 fn shortened(t: f64) -> String {
     let rounded = (t * 1e6).round() / 1e6;
     if rounded.is_finite() && (rounded - t).abs() <= 1e-9 * t.abs() {
@@ -576,7 +576,7 @@ fn shortened(t: f64) -> String {
 
 fn metres(length: f64) -> String {
     if (1e-3..1e4).contains(&length) {
-        // One significant digit, also if the power of ten has a rounding error.
+        // The number has one significant digit, even if the power of ten has a rounding error.
         let digits = (-length.log10()).ceil().max(0.0) as usize;
         format!("{length:.digits$} m")
     } else {

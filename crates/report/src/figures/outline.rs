@@ -3,8 +3,8 @@
 //! A figure uses the hull of the points in the picture. A page of a spatial mechanism uses the hull
 //! of the points in space.
 
-/// Convex hull, counter-clockwise in the given axes, without points on its sides. For one or two
-/// points, returns these points.
+/// Returns the corners of the convex hull, counter-clockwise in the given axes. Points on the sides
+/// of the hull are omitted. For one or two points, returns these points.
 pub(super) fn hull(points: &[[f64; 2]]) -> Vec<[f64; 2]> {
     let mut sorted = points.to_vec();
     sorted.sort_by(|a, b| a[0].total_cmp(&b[0]).then(a[1].total_cmp(&b[1])));

@@ -14,7 +14,7 @@ pub use recorder::PathRecorder;
 pub struct Path {
     /// Name in the legend.
     pub label: String,
-    /// x (m); a value that is not finite is a gap.
+    /// x (m). A value that is not finite is a gap.
     pub x: Vec<f64>,
     /// y (m).
     pub y: Vec<f64>,
@@ -39,8 +39,8 @@ const SLENDER: f64 = 3.5;
 /// Margin of the page (px).
 const MARGIN: f64 = 16.0;
 
-/// Paths in the plane with equal axes. A ring marks the start of each path, and a dot marks its
-/// end.
+/// Draws paths in the plane with equal axes. A ring marks the start of each path, and a dot marks
+/// the end.
 #[must_use]
 pub fn paths(title: &str, paths: &[Path]) -> String {
     let all = || paths.iter().flat_map(Path::points);

@@ -29,11 +29,11 @@ pub(crate) const SOFTWARE: &str = "pfaff";
 #[cfg(any(feature = "png", test))]
 const SHARP: f64 = 2.0;
 
-/// Allowed scales. Below 0.1, symbols cannot be distinguished.
+/// Range of permitted scales. Below 0.1, symbols cannot be distinguished.
 const SCALES: RangeInclusive<f64> = 0.1..=20.0;
 
-/// Maximum number of pixels of a picture. A pixel has 4 bytes, and three copies are in memory while
-/// the picture is rendered and compressed.
+/// Maximum number of pixels of a picture. A pixel has 4 bytes. While the picture is rendered and
+/// compressed, three copies of the pixels are in memory.
 const MOST_PIXELS: f64 = 2.5e7;
 
 /// Reason why a figure cannot be converted to a PNG file.

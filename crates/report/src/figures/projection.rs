@@ -1,9 +1,9 @@
 //! The initial view of a mechanism: the projection from points of its space to the plane of the
 //! picture.
 //!
-//! The plane is seen along z. Space is seen from a distant viewpoint at the front right and above,
-//! with gravity downwards; without gravity, z is upwards. Figures use this view; the script of a
-//! page starts with it and rotates it.
+//! The plane is seen along z. Space is seen from a distant viewpoint at the front right and above.
+//! Gravity points downwards; without gravity, z points upwards. Figures use this view. The script
+//! of a page starts with this view and rotates it.
 
 use model::{Mechanism, SpaceKind};
 use serde::ser::{Serialize, SerializeMap, Serializer};
@@ -16,8 +16,8 @@ use crate::channel::FewDigits;
 const TURNED: f64 = -std::f64::consts::FRAC_PI_3;
 const RAISED: f64 = std::f64::consts::FRAC_PI_6;
 
-/// A parallel projection: the directions of space that point to the right and upwards in the
-/// picture, as orthogonal unit vectors, and the upward direction in space.
+/// A parallel projection. It contains two orthogonal unit vectors, which point to the right and
+/// upwards in the picture, and the upward direction in space.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Projection {
     right: [f64; 3],
@@ -49,8 +49,7 @@ impl Projection {
 
     /// The view of space with this unit vector upwards.
     fn with_above(above: [f64; 3]) -> Self {
-        // The first axis of the ground that is not vertical points from left to right in the front
-        // view.
+        // In the front view, the first ground axis that is not vertical points from left to right.
         let first = if above[0].abs() < 0.9 { 0 } else { 1 };
         let level: [f64; 3] = std::array::from_fn(|k| {
             let axis = if k == first { 1.0 } else { 0.0 };
@@ -80,7 +79,7 @@ impl Projection {
     }
 }
 
-/// For scripts, which rotate the view.
+/// Scripts read the projection, because they rotate the view.
 impl Serialize for Projection {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         let mut map = serializer.serialize_map(Some(3))?;

@@ -41,13 +41,14 @@ pub struct HistogramDocument {
 /// Number of intervals of a histogram.
 const INTERVALS: usize = 24;
 
-/// A histogram shows the range of the middle nine tenths of the values, extended on each side by
-/// this multiple of its width. Samples outside are counted, but not drawn.
+/// Extension of a histogram on each side, as a multiple of the width of its central range. The
+/// central range contains the middle nine tenths of the values. Samples outside of the histogram
+/// are counted, but not drawn.
 const ROOM: f64 = 1.0;
 
 impl RangeDocument {
-    /// The range of these values, with the value for the described data if there is one. Values
-    /// that are not finite are omitted; `None` if no value remains.
+    /// Returns the range of these values. `described` is the value for the described data, if there
+    /// is such a value. Values that are not finite are omitted. Returns `None` if no value remains.
     ///
     /// ```
     /// use pfaff_report::figures::RangeDocument;
@@ -61,14 +62,15 @@ impl RangeDocument {
         sorted.sort_by(f64::total_cmp);
         let (&least, &greatest) = (sorted.first()?, sorted.last()?);
         let n = sorted.len() as f64;
-        // The values are summed in ascending order, relative to the first one: this avoids overflow
+        // The differences from the first value are summed in ascending order. This avoids overflow
         // and large rounding errors.
         let mean = least + sorted.iter().map(|x| (x - least) / n).sum::<f64>();
         let variance = sorted
             .iter()
             .map(|x| (x - mean) * (x - mean) / n)
             .sum::<f64>();
-        // The smallest value such that at least this share of the samples is not larger.
+        // Returns the smallest value for which at least this share of the samples is not larger
+        // than the value.
         let below = |share: f64| sorted[((share * n).ceil() as usize).clamp(1, sorted.len()) - 1];
         let percentiles = [0.05, 0.5, 0.95].map(below);
         let room = ROOM * (percentiles[2] - percentiles[0]);

@@ -1,5 +1,5 @@
-//! Colours, strokes and sizes. Colour-blind readers can distinguish the colours, which are from
-//! Okabe and Ito (2008). No information depends on colour alone.
+//! Colours, strokes and sizes. The colours are from Okabe and Ito (2008); colour-blind readers can
+//! distinguish them. No information depends on colour alone.
 
 /// Text and frames.
 pub(super) const INK: &str = "#222222";
@@ -57,7 +57,7 @@ impl Pattern {
 /// Appearance of a curve.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Style {
-    /// Index in the palette of seven colours, which repeats.
+    /// Index in the palette of seven colours. The palette repeats.
     pub colour: usize,
     /// Stroke of the curve.
     pub pattern: Pattern,

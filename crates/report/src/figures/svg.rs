@@ -5,7 +5,7 @@ use std::fmt::Write;
 /// Fonts in the order of preference. The sizes of labels are estimated for the widest font.
 const FONTS: &str = "Helvetica, Arial, 'Liberation Sans', 'DejaVu Sans', sans-serif";
 
-/// Text in the first element of every figure, which figures of other programs do not contain.
+/// Text in the first element of every figure. Figures of other programs do not contain this text.
 pub(crate) const GENERATOR: &str = "'Liberation Sans', 'DejaVu Sans', sans-serif\" role=\"img\"";
 
 /// Conservative estimate of the mean width of a character relative to the font size.
@@ -47,7 +47,7 @@ impl Svg {
         svg
     }
 
-    /// Starts an element; one of the last three methods of [`Element`] writes it.
+    /// Starts an element. One of the last three methods of [`Element`] writes the element.
     pub(super) fn element(&mut self, tag: &'static str) -> Element<'_> {
         self.text.push('<');
         self.text.push_str(tag);

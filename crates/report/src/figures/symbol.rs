@@ -62,8 +62,8 @@ impl Symbol {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Shape {
     pub(crate) name: &'static str,
-    /// Half the width and half the height of the box of the symbol, and the vertical offset of the
-    /// middle of the box from the point of the symbol (px).
+    /// Half the width and half the height of the box of the symbol (px), and the vertical offset
+    /// between the point of the symbol and the middle of the box (px).
     pub(crate) half: [f64; 2],
     pub(crate) middle: f64,
     /// Class and path data of each stroke, in the order of drawing.
@@ -71,7 +71,7 @@ pub(crate) struct Shape {
 }
 
 impl Shape {
-    /// The shape with this name; if the name does not exist, the first shape.
+    /// Returns the shape with this name. If the name does not exist, returns the first shape.
     pub(super) fn named(name: &str) -> Self {
         SHAPES
             .into_iter()
@@ -124,7 +124,7 @@ const STAND: &str = "M0 0L-9 14H9Z";
 const GROUND: &str = "M-15 14H15M-9 14l-5 6M-3 14l-5 6M3 14l-5 6M9 14l-5 6M15 14l-5 6";
 const CENTRE: &str = "M-4 0H4M0-4V4M-4 0a4 4 0 1 1 8 0a4 4 0 1 1-8 0";
 
-/// All symbols in the order of drawing. Symbols that would hide others are drawn first.
+/// All symbols in the order of drawing. Symbols that would hide other symbols are drawn first.
 pub(crate) const SHAPES: [Shape; 15] = [
     shape("rod", [5.0, 5.0], 0.0, &[("mark", END)]),
     shape("block", [12.0, 7.5], 0.0, &[("mark", BLOCK)]),

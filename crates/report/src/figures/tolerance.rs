@@ -1,4 +1,4 @@
-//! Distributions of values over samples, as histograms below each other, and positions of a marker.
+//! Distributions of values over samples, as a column of histograms, and positions of a marker.
 
 use super::RangeDocument;
 use super::axis::{Axis, range as extent};
@@ -37,8 +37,9 @@ pub struct RangeRow<'a> {
     pub range: &'a RangeDocument,
 }
 
-/// Histograms, each with a separate axis. A line marks the value for the described data, and a band
-/// marks the middle nine tenths. The number of values outside is written at the edges.
+/// Draws histograms, each with a separate axis. A line marks the value for the described data, and
+/// a band marks the middle nine tenths. The number of values outside of a histogram is written at
+/// its edges.
 #[must_use]
 pub fn ranges(rows: &[RangeRow<'_>]) -> String {
     let row = HEIGHT + BELOW + 10.0;
@@ -142,8 +143,9 @@ fn histogram(svg: &mut Svg, top: f64, row: &RangeRow<'_>) {
 /// Side of a panel of positions (px).
 const SIDE: f64 = 260.0;
 
-/// Draws the positions of a marker (m) relative to its first position, in mm: y over x, in space
-/// also z over x. The figure is empty if the marker does not move.
+/// Draws the positions of a marker (m) relative to its first position, in mm. One panel shows y
+/// over x; in space, a second panel shows z over x. The figure is empty if the marker does not
+/// move.
 #[must_use]
 pub fn cloud(name: &str, places: &[[f64; 3]], spatial: bool) -> String {
     let Some(&first) = places.first() else {

@@ -1,6 +1,6 @@
 //! Error against run time and against number of evaluations, with three log–log panels for each
-//! scene. Points that are lower and further left are better. Curves differ in colour and in marker.
-//! The page uses the light or dark scheme of the reader.
+//! scene. The best points are at the lower left. Curves differ in colour and in marker. The page
+//! uses the light or dark colour scheme of the reader.
 
 use super::curve::{Curve, Look};
 use super::decades::{Unit, decades};
@@ -26,7 +26,7 @@ const BELOW: f64 = 26.0;
 /// Number of panels of a scene.
 const COLUMNS: usize = 3;
 
-/// Range of errors, as powers of ten; values outside are drawn at the edge.
+/// Range of errors, as powers of ten. Values outside of this range are drawn at the edge.
 const SHOWN: [f64; 2] = [-16.0, 1.0];
 
 /// Fill colour of the area below the error of the reference.
@@ -36,10 +36,10 @@ const UNRESOLVED: &str = "#f1f3f5";
 type Work = fn(&WorkPrecisionRow) -> f64;
 
 /// Draws the error of the motion, which is the larger error of position and velocity. Two panels
-/// show this error for all methods, over seconds and over evaluations. One panel shows the error
-/// for all treatments of redundancy and drift with one method, over seconds. A dashed line is the
-/// error of the reference. Runs that did not reach their end have no point; their number is
-/// printed.
+/// show this error for all methods, over seconds and over evaluations. The third panel shows the
+/// error over seconds for one method with all treatments of redundancy and drift. A dashed line is
+/// the error of the reference. Runs that did not reach their end have no point; the figure states
+/// the number of these runs.
 #[must_use]
 pub fn work_precision(scenes: &[WorkPrecisionScene]) -> String {
     let methods = Family::methods(scenes);
@@ -102,7 +102,8 @@ pub fn work_precision(scenes: &[WorkPrecisionScene]) -> String {
     svg.finish()
 }
 
-/// The error bound of the reference is shown if it is at least this fraction of the smallest error.
+/// The error bound of the reference is shown if the bound is at least this fraction of the smallest
+/// error.
 const FAR: f64 = 1e-3;
 
 /// Logarithms of all errors of a scene, and of the error bound of its reference if the bound is
@@ -232,7 +233,8 @@ impl Family {
     fn treatments(scenes: &[WorkPrecisionScene]) -> Self {
         let all = names(scenes);
         let count = |method: &str| all.iter().filter(|c| c.method == method).count();
-        // If several methods have this number, the first one is used.
+        // If several methods have the largest number of treatments, the first of these methods is
+        // used.
         let method = all
             .iter()
             .rev()

@@ -1,5 +1,6 @@
-//! The lock of an output directory. The directory itself is locked, or a file in it if directories
-//! cannot be locked. The operating system releases the lock when the process ends.
+//! The lock of an output directory. The directory itself is locked. If directories cannot be
+//! locked, a file in the directory is locked. The operating system releases the lock when the
+//! process ends.
 
 use std::fs::{File, TryLockError};
 use std::path::Path;
@@ -9,7 +10,7 @@ use super::FileError;
 /// The file that is locked if directories cannot be locked.
 const LOCK: &str = "pfaff.lock";
 
-/// The lock of a directory; `None` if the file system does not support locks.
+/// Locks a directory. Returns `None` if the file system does not support locks.
 ///
 /// # Errors
 /// [`FileError::Busy`]: another process has the lock.

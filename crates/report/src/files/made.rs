@@ -1,10 +1,10 @@
-//! Directories that were created for results. Directories that remain empty are removed again.
+//! Directories that were created for results. A directory that remains empty is removed again.
 
 use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
-/// Directories that did not exist before, starting with the innermost one.
+/// Directories that did not exist before, starting with the innermost directory.
 #[derive(Debug, Default)]
 pub(super) struct NewDirectories(Vec<PathBuf>);
 
@@ -20,7 +20,8 @@ impl NewDirectories {
 
     /// Removes the directories that are empty.
     pub(super) fn remove_empty(&self) {
-        // Directories that contain files are not removed, nor are the directories above them.
+        // Directories that contain files, and the directories above these directories, are not
+        // removed.
         let _ = self.0.iter().try_for_each(fs::remove_dir);
     }
 }

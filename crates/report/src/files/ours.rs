@@ -11,8 +11,9 @@ const HEAD: u64 = 1 << 12;
 /// The start of scenes that this program writes.
 pub const PROVENANCE: &str = "# Written by pfaff";
 
-/// Whether a file can be replaced without a loss: it does not exist, is empty, or was written by
-/// this program. An unreadable file does not count as written by this program.
+/// Whether a file can be replaced without a loss. This is true if the file does not exist, is
+/// empty, or was written by this program. An unreadable file does not count as written by this
+/// program.
 #[must_use]
 pub fn is_ours(path: &Path) -> bool {
     match head_of(path) {
@@ -65,8 +66,9 @@ fn is_picture(head: &[u8]) -> bool {
     head.starts_with(b"\x89PNG\r\n\x1a\n") && head.windows(chunk.len()).any(|part| part == chunk)
 }
 
-/// Whether this is the header of a table of this program: quantities of bodies, joints and drives
-/// over time, runs of a sweep, samples of tolerances, runs of a comparison, matrices or modes.
+/// Whether this is the header of a table of this program. These tables contain quantities of
+/// bodies, joints and drives over time, runs of a sweep, samples of tolerances, runs of a
+/// comparison, matrices or modes.
 fn is_table(header: &str) -> bool {
     let mut names = header.split(',');
     match names.next() {

@@ -117,7 +117,7 @@ mod tests {
         if own.born == 0 {
             return;
         }
-        // Another process that had this identifier earlier.
+        // This is another process that had the same identifier earlier.
         assert_eq!(
             Process {
                 born: own.born - 1,
@@ -140,7 +140,8 @@ mod tests {
             };
             assert_eq!(process.life(), Life::Runs);
             child.kill().expect("it runs");
-            // The process has ended, whether or not its parent has read its exit status.
+            // The loop waits until the process has ended. The parent process need not have read the
+            // exit status.
             while !super::Stat::of(child.id()).is_none_or(|stat| stat.has_ended) {
                 std::thread::yield_now();
             }

@@ -18,7 +18,7 @@ pub struct Column {
 pub enum Kind {
     /// Integers; a value may be unknown.
     Count,
-    /// Numbers; NaN if unknown.
+    /// Numbers. An unknown number is NaN.
     Number,
     /// Texts of one line.
     Text,

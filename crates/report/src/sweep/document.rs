@@ -50,7 +50,7 @@ pub struct SweepDocument {
 pub enum Extent {
     /// All runs.
     Whole,
-    /// The runs of a shard; `None` if the shard has no runs, because there are more shards than
+    /// The runs of a shard. `None` if the shard has no runs because there are more shards than
     /// runs.
     Shard(Option<Runs>),
 }

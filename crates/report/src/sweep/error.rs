@@ -1,4 +1,4 @@
-//! Errors if the files of a sweep cannot be used.
+//! Errors for files of a sweep that cannot be used.
 
 use std::path::{Path, PathBuf};
 
@@ -42,7 +42,7 @@ pub enum JournalError {
         /// The directory.
         directory: PathBuf,
     },
-    /// Two rows of one run differ, although machines with equal arithmetic produce equal rows.
+    /// Two rows of one run differ. Machines with equal arithmetic produce equal rows.
     #[error(transparent)]
     Differs(#[from] Box<Difference>),
 }
@@ -77,7 +77,8 @@ impl JournalError {
         }
     }
 
-    /// Whether the content of the directory is the cause; otherwise the system is the cause.
+    /// Whether the content of the directory is the cause of the error. Otherwise, the system is the
+    /// cause.
     #[must_use]
     pub fn is_input(&self) -> bool {
         match self {
@@ -89,7 +90,7 @@ impl JournalError {
 
 /// The text of a plan.
 pub(super) fn json(plan: &SweepPlan) -> Vec<u8> {
-    // Texts, numbers and lists of texts, so this cannot fail.
+    // The plan contains only texts, numbers and lists of texts, so this cannot fail.
     serde_json::to_vec(plan).unwrap_or_default()
 }
 

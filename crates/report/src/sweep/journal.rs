@@ -1,5 +1,5 @@
 //! The journal of one attempt to make the runs of a shard. A line is written before runs start, and
-//! a line is written at the end of each run; lines are never changed. Only one process writes a
+//! a line is written at the end of each run. Lines are never changed. Only one process writes a
 //! journal, so no lock is needed.
 
 use std::fs::{self, File};
@@ -21,8 +21,9 @@ pub(super) const EXTENSION: &str = ".journal";
 /// are lost. After a crash of the program, no run is lost.
 const SYNC: Duration = Duration::from_millis(100);
 
-/// A journal that is being written. When the journal is dropped, a line records that the started
-/// runs did not end the process. Only if the process ends abruptly is this line missing.
+/// A journal that is being written. When the journal is dropped, a line is written which states
+/// that the started runs did not end the process. This line is missing only if the process ends
+/// abruptly.
 #[derive(Debug)]
 pub struct Journal {
     file: File,
@@ -73,7 +74,7 @@ impl Journal {
     }
 
     /// Records that these runs start. The line is not synchronised with the disk, because it is
-    /// needed only after a crash of the process, not after a failure of the machine.
+    /// needed only after a crash of the process, and not after a failure of the machine.
     ///
     /// # Errors
     /// [`JournalError::File`]: the journal could not be written.
@@ -143,8 +144,8 @@ impl Journal {
 
 impl Drop for Journal {
     fn drop(&mut self) {
-        // If this line is missing, the runs are made one at a time in the next attempt; there is no
-        // other effect.
+        // If this line is missing, the next attempt makes the runs one at a time. There is no other
+        // effect.
         let _ = self.end();
     }
 }

@@ -41,7 +41,7 @@ pub(super) fn line(text: &[u8]) -> Vec<u8> {
     line
 }
 
-/// The intact lines of a file, and whether the first line of the file is one of them.
+/// Returns whether the first line of a file is intact, and all intact lines.
 pub(super) fn intact(bytes: &[u8]) -> (bool, impl Iterator<Item = &[u8]>) {
     let mut lines = bytes.split_inclusive(|b| *b == b'\n').map(text);
     let first = lines.next().flatten();
@@ -55,13 +55,13 @@ fn text(line: &[u8]) -> Option<&[u8]> {
     (u64::from_str_radix(written, 16).ok()? == digest(text)).then_some(text)
 }
 
-/// The content of a line; the first line of a file has a different content.
+/// The content of a line, except the first line of a file.
 pub(super) enum Entry {
     /// These runs start together.
     Begin(Vec<u64>),
     /// This run starts. The process makes no other run until it is finished.
     Alone(u64),
-    /// The process ended the attempt intentionally; the started runs did not cause the end.
+    /// The process ended the attempt intentionally. The started runs did not cause the end.
     End,
     /// A finished run.
     Row(u64, Vec<Cell>),

@@ -17,8 +17,8 @@ pub struct Records {
     pub repeated: u64,
     /// Finished shards.
     pub sealed: Vec<Runs>,
-    /// Runs without a row during which the process ended. The value is the number of times that the
-    /// process ended while it made only this run.
+    /// Runs without a row during which the process ended. For each run, the value is the number of
+    /// times that the process ended while it made only this run.
     pub suspects: BTreeMap<u64, u64>,
 }
 
@@ -113,8 +113,9 @@ impl RecordCollection {
         }
     }
 
-    /// Adds a row of a file. A second row of the same run must be equal, except for the run time.
-    /// In addition, one of the two rows may state that the process ended.
+    /// Adds a row of a file. A second row of the same run must be equal to the first row, except
+    /// for the run time. As another exception, one of the two rows may state that the process
+    /// ended.
     pub(super) fn take(
         &mut self,
         run: u64,
@@ -163,8 +164,8 @@ impl RecordCollection {
         .into())
     }
 
-    /// Records that a process ended during these runs. For each run, the map contains whether the
-    /// process made no other run at that time.
+    /// Records that a process ended during these runs. For each run, the value of the map is true
+    /// if the process made no other run at that time.
     pub(super) fn blame(&mut self, begun: BTreeMap<u64, bool>) {
         for (run, was_alone) in begun {
             *self.records.suspects.entry(run).or_default() += u64::from(was_alone);

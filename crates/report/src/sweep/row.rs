@@ -8,15 +8,14 @@ use crate::peaks::Peak;
 pub enum SweepStatus {
     /// The run reached its end time.
     Done,
-    /// The run ended at the instant at which its one-sided joints could no longer all stay closed;
-    /// the row contains the results up to this time.
+    /// The run ended at the instant after which not all one-sided joints can stay closed. The row
+    /// contains the results up to this time.
     Opened,
-    /// The run stopped earlier because of an error; the row contains the results up to this time.
+    /// The run stopped early because of an error. The row contains the results up to this time.
     Stopped,
     /// The run did not start, because the mechanism or the motion does not exist for these values.
     Refused,
-    /// The process that made the run ended unexpectedly in two attempts in which it made only this
-    /// run.
+    /// In two attempts, the process made only this run and ended unexpectedly.
     Crashed,
 }
 
@@ -79,13 +78,13 @@ pub struct SweepMotion {
     /// Number of joints and drives with a component that is unique at the initial state, but
     /// sensitive to data (`fragile`).
     pub fragile: u64,
-    /// Time of the last output state (s); the end time of a run that is done.
+    /// Time of the last output state (s). For a run that is done, this is the end time.
     pub t_state: f64,
     /// The last output state, body by body in the order of [`SweepPlan::state`]; NaN if no row was
     /// written.
     pub state: Vec<f64>,
-    /// Peaks of |F| (N) and |T| (N·m) of the joints and drives of [`SweepPlan::reactions`]; `None`
-    /// for a magnitude that is not determined on the whole run.
+    /// Peaks of |F| (N) and |T| (N·m) of the joints and drives of [`SweepPlan::reactions`]. `None`
+    /// for a magnitude that is determined at no time of the run.
     pub peaks: Vec<[Option<Peak>; 2]>,
     /// Upper bounds of the reactions that are not unique, if the scene requests them.
     pub at_most: Option<BoundsOfRun>,
@@ -94,17 +93,18 @@ pub struct SweepMotion {
 /// Upper bounds of force and torque over the output rows of a run, for joints of any stiffness.
 #[derive(Clone, Debug, PartialEq)]
 pub struct BoundsOfRun {
-    /// Number of output rows in which some reactions have no bounds; these rows are not included.
+    /// Number of output rows in which some reactions have no bounds. The largest bounds do not
+    /// include these rows.
     pub rows_without: u64,
-    /// The largest bound of force (N) and of torque (N·m) of the joints and drives of
-    /// [`SweepPlan::reactions`], each with its first time (s); NaN if the reaction is unique or has
-    /// no bounds.
+    /// The largest bounds of force (N) and torque (N·m) for the joints and drives of
+    /// [`SweepPlan::reactions`]. Each bound is followed by the first time at which it occurs (s).
+    /// Both numbers are NaN if the reaction is unique or has no bounds.
     pub largest: Vec<[[f64; 2]; 2]>,
 }
 
 impl SweepMotion {
-    /// Returns the largest |F| and |T| of a joint or drive, each with its first time; both numbers
-    /// are NaN if the magnitude is not determined.
+    /// Returns the largest |F| and |T| of a joint or drive. Each value is followed by the first
+    /// time at which it occurs. Both numbers are NaN if the magnitude is not determined.
     #[must_use]
     pub fn largest(&self, reaction: usize) -> [[f64; 2]; 2] {
         self.peaks[reaction].each_ref().map(|peak| {
@@ -125,7 +125,7 @@ pub struct SweepRow {
     pub varied: Vec<f64>,
     /// End of the run.
     pub status: SweepStatus,
-    /// Reason why the run is not done; empty if it is done.
+    /// Reason why the run is not done. The text is empty if the run is done.
     pub error: String,
     /// Results of the run, if it started.
     pub motion: Option<SweepMotion>,
@@ -159,8 +159,9 @@ const AT_MOST: [&str; 4] = ["F_at_most", "F_at_most_t", "T_at_most", "T_at_most_
 
 impl SweepPlan {
     /// The columns are `run`, the varied keys, `status`, `error`, `method`, `t`, counts and other
-    /// values. Then follow the last state of each body, the peaks of each requested joint and
-    /// drive, and, if the scene requests bounds, the number of rows without bounds and the bounds.
+    /// values. Then follow the last state of each body, and the peaks of each requested joint and
+    /// drive. If the scene requests bounds, the last columns are the number of rows without bounds
+    /// and the bounds.
     #[must_use]
     pub fn columns(&self) -> Vec<Column> {
         let column = |kind: Kind| move |name: String| Column { name, kind };

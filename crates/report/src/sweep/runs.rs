@@ -4,7 +4,8 @@ use std::fmt;
 
 use serde::{Serialize, Serializer};
 
-/// Consecutive runs of a sweep, both ends included, counted from 1. A shard has at least one run.
+/// Consecutive runs of a sweep (1-based), from the first to the last, inclusive. A shard has at
+/// least one run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Runs {
     first: u64,
@@ -48,7 +49,7 @@ impl Runs {
         self.first <= other.last && other.first <= self.last
     }
 
-    /// The runs that remain after the removal of others, in order.
+    /// Returns the runs that remain after the removal of other runs, in order.
     #[must_use]
     pub fn without(self, others: &[Self]) -> Vec<Self> {
         let mut others: Vec<Self> = others.iter().filter(|o| o.meets(self)).copied().collect();
@@ -63,7 +64,7 @@ impl Runs {
         left
     }
 
-    /// Groups of consecutive numbers among ascending numbers.
+    /// Returns the groups of consecutive numbers in a list of ascending numbers.
     pub(super) fn among(numbers: impl IntoIterator<Item = u64>) -> Vec<Self> {
         let mut all: Vec<Self> = Vec::new();
         for run in numbers {
@@ -75,8 +76,8 @@ impl Runs {
         all
     }
 
-    /// The runs as the start of a file name. The numbers have as many digits as the number of all
-    /// runs, so that names are in the order of the runs.
+    /// Returns the runs as the start of a file name. Each number has as many digits as the number
+    /// of all runs, so that names are in the order of the runs.
     pub(super) fn name(self, all: u64) -> String {
         let width = all.to_string().len();
         format!("{:0width$}-{:0width$}", self.first, self.last)

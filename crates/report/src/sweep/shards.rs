@@ -1,6 +1,6 @@
 //! The folder `shards` of the directory of a sweep: the plan, finished shards, and the journals of
-//! attempts. File names contain the runs of a file, so that a process reads only the files that it
-//! needs.
+//! attempts. The name of a file contains the runs of the file, so that a process reads only the
+//! files that it needs.
 //!
 //! | file | content |
 //! | --- | --- |
@@ -9,8 +9,8 @@
 //! | `0001-0500.parquet` | the same shard as Parquet, written before the `.rows` file |
 //! | `0001-0500.HOST-PID-TIME.journal` | an attempt |
 //!
-//! Files are written next to their final paths, synchronised and renamed. Two processes may
-//! therefore write the same file; the contents differ only in the column `seconds`. There are no
+//! Files are written next to their final paths, synchronised and renamed. Therefore two processes
+//! may write the same file; the two contents differ only in the column `seconds`. There are no
 //! locks.
 
 use std::collections::BTreeMap;
@@ -238,8 +238,8 @@ impl Shards {
             let is_dead = match by.as_ref().map(Process::life) {
                 Some(Life::Runs) => false,
                 Some(Life::Gone) => true,
-                // If it is unknown whether the process is still running, it counts as ended only if
-                // exactly its runs are requested.
+                // If it is unknown whether the process of a journal is still running, the process
+                // counts as ended only if exactly the runs of the journal are requested.
                 Some(Life::Unknown) | None => found.runs == wanted,
             };
             if !has_ended && is_dead {
@@ -267,7 +267,8 @@ impl Shards {
         Ok(all)
     }
 
-    /// The first line of a file and the other lines; `None` if the first line is incomplete.
+    /// Returns the first line of a file and the other lines. Returns `None` if the first line is
+    /// incomplete.
     fn content<'b>(
         &self,
         found: &ShardFile,
@@ -364,8 +365,8 @@ impl Shards {
     }
 
     /// Deletes the rows of runs during which the process ended, and removes these runs from the
-    /// list of suspects. These runs are performed again like runs that were never started. Returns
-    /// the number of these runs. No process may make runs of the sweep at the same time.
+    /// list of suspects. These runs are then performed again, like runs that were never started.
+    /// Returns the number of these runs. At the same time, no process may make runs of the sweep.
     ///
     /// # Errors
     /// Returns the same errors as [`Self::read`]; [`JournalError::File`]: a file could not be
@@ -410,8 +411,8 @@ impl Shards {
     }
 }
 
-/// Records in the journals of this process that its end is intended and that the started runs did
-/// not cause it. This function is for a process that will be ended without unwinding.
+/// Records in the journals of this process that the end of the process is intended and that the
+/// started runs did not cause the end. This function is for a process that ends without unwinding.
 pub fn end_attempts(directory: &Path) {
     let Ok(shards) = Shards::find(directory) else {
         return;
@@ -426,7 +427,7 @@ pub fn end_attempts(directory: &Path) {
             && head.by.as_ref() == Some(&own)
         {
             let file = File::options().append(true).open(&found.path);
-            // The process ends, whether or not this succeeds.
+            // The process ends even if this fails.
             let _ = file.and_then(|mut file| file.write_all(&line(&Entry::End.text())));
         }
     }

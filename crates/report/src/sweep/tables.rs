@@ -22,11 +22,11 @@ const WRITTEN: &[&str] = if cfg!(feature = "parquet") {
 };
 
 /// Writes `sweep.csv`, `summary.json`, and with the feature `parquet` also `sweep.parquet`. Each
-/// file is written next to its final path and renamed. Several processes may do this at the same
-/// time; the last result remains.
+/// file is written next to its final path and renamed. Several processes may write the files at the
+/// same time; the last result remains.
 ///
 /// # Errors
-/// Returns an error if a file could not be written; complete older tables are kept.
+/// Returns an error if a file could not be written. Complete older tables are kept.
 pub fn write_sweep<E: From<FileError> + From<TableError>>(
     directory: &OutputDirectory,
     records: &Records,

@@ -1,5 +1,5 @@
-//! Tests that damaged files can be read, and that tables are the same after any interruption and
-//! for any process that made the rows.
+//! Tests that damaged files can be read. Also tests that tables do not depend on interruptions or
+//! on the process that made the rows.
 
 use std::fs;
 use std::path::PathBuf;
@@ -137,8 +137,8 @@ fn fill(folder: &Folder, of: Runs, rows: &[SweepRow]) {
     journal.finish().expect("writable");
 }
 
-/// Writes a journal of a process that is no longer running. It contains the lines of a running
-/// process with another header.
+/// Writes a journal of a process that is no longer running. The journal contains the lines of a
+/// running process with another header.
 fn left_by(host: &str, folder: &Folder, name: &str, of: Runs, lines: &[&str]) {
     let own = Process::own();
     let host = if host.is_empty() { &own.host } else { host };
@@ -334,7 +334,7 @@ fn another_sweep_is_refused_by_name() {
     assert!(matches!(error, JournalError::Missing { .. }), "{error}");
 }
 
-/// The same run has two rows: a repetition is counted, a copy is not counted, and different rows
+/// Tests two rows of one run: a repetition is counted, a copy is not counted, and different rows
 /// are rejected with an error.
 #[test]
 fn rows_of_one_run_must_agree() {
@@ -402,9 +402,9 @@ fn rows_of_one_run_must_agree() {
     }
 }
 
-/// A process that ended during runs makes them suspect, unless it ended intentionally, is still
-/// running, or has finished them. The runs of a process on another machine are requested again only
-/// if its journal is removed.
+/// Runs are suspect if a process ended during these runs. They are not suspect if the process ended
+/// intentionally, is still running, or has finished the runs. The runs of a process on another
+/// machine are requested again only if the journal of that process is removed.
 #[test]
 fn only_an_end_without_a_word_makes_runs_suspect() {
     let folder = Folder::new("suspects");
@@ -576,7 +576,7 @@ fn gaps_are_told_as_runs() {
     assert_eq!(text["shard"], serde_json::json!([3, 3]));
 }
 
-/// If the value is not determined, its time is also omitted.
+/// If a value is not determined, the time of the value is also omitted.
 #[test]
 fn cells_of_peaks_are_determined() {
     let plan = plan();

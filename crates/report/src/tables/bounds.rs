@@ -1,6 +1,6 @@
 //! `bounds.csv`: the smallest and the largest value of each reaction that the model does not
-//! determine. Which reactions these are is known only after the run, so a run first writes the
-//! bounds of all columns.
+//! determine. It is not known until the end of the run which reactions are determined, so a run
+//! first writes the bounds of all columns.
 
 use std::io::{self, BufRead, Write};
 
@@ -39,7 +39,7 @@ impl<W: Write> BoundsTable<W> {
         })
     }
 
-    /// Writes the bounds of all columns at time t; NaN becomes an empty cell.
+    /// Writes the bounds of all columns at time t. NaN becomes an empty cell.
     ///
     /// # Errors
     /// - [`TableError::Write`]: the writer failed.
@@ -59,8 +59,8 @@ impl<W: Write> BoundsTable<W> {
     }
 }
 
-/// Copies the bounds of the columns that are not determined on at least one interval; on intervals
-/// on which they are, the cells are empty.
+/// Copies the bounds of each column that is not determined on at least one interval. On intervals
+/// on which the column is determined, the cells are empty.
 ///
 /// # Errors
 /// [`TableError::Write`]: reading or writing failed.

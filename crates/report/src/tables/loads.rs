@@ -1,4 +1,5 @@
-//! `loads.csv`: force and torque of force elements on their first bodies, with their measures.
+//! `loads.csv`: the force and torque of each force element on its first body, and the measure of
+//! the element.
 
 use std::io::Write;
 
@@ -10,7 +11,8 @@ use crate::units::SceneUnits;
 /// Name of the table.
 const NAME: &str = "loads.csv";
 
-/// The columns of a force element: the components of its wrench, then its measure and its rate.
+/// Returns the columns of a force element: the components of the wrench, then the measure and the
+/// rate of the measure.
 pub fn load_columns(
     space: SpaceKind,
     name: &str,
@@ -67,7 +69,7 @@ impl<W: Write> LoadTable<W> {
         })
     }
 
-    /// Writes the loads at time t; a number that does not exist is an empty cell.
+    /// Writes the loads at time t. A number that does not exist is an empty cell.
     ///
     /// # Errors
     /// - [`TableError::Write`]: the writer failed.

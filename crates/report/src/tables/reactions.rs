@@ -1,7 +1,7 @@
 //! `reactions.csv`: force and torque on the first body of joints and drives, and the components of
-//! groups. After the run it is known which cells of the table have a determined value. During the
-//! run, all values belong to one of the possible solutions for the multipliers, which is written to
-//! `choice.csv`.
+//! groups. It is not known until the end of the run which cells of the table have a determined
+//! value. During the run, all values belong to one of the possible solutions for the multipliers.
+//! The table of this solution is `choice.csv`.
 
 use std::io::{self, BufRead, Write};
 
@@ -17,7 +17,7 @@ pub enum Selection {
     /// All reactions.
     #[default]
     All,
-    /// Reactions of these joints and drives, in the order of the rows of C; the order of the names
+    /// Reactions of these joints and drives, in the order of the rows of C. The order of the names
     /// has no effect.
     Names(Vec<String>),
 }
@@ -71,7 +71,7 @@ pub enum Quantity {
 }
 
 impl Quantity {
-    /// The verdicts on the quantity; `None` if the quantity is zero under any load.
+    /// Returns the verdicts on the quantity. Returns `None` if the quantity is zero under any load.
     #[must_use]
     pub fn verdicts<'s>(&self, stretches: &'s Stretches) -> Option<&'s VerdictTrack> {
         match self {
@@ -93,7 +93,7 @@ impl Quantity {
             .then_some(track)
     }
 
-    /// A value of this quantity at a time, with the verdict whether it is determined on the
+    /// Returns a value of this quantity at a time, and whether the quantity is determined on the
     /// interval that contains the time.
     #[must_use]
     pub fn value(&self, stretches: &Stretches, t: f64, number: f64) -> Value {
@@ -135,8 +135,8 @@ impl ReactionColumn {
     }
 }
 
-/// The columns of all selected joints and drives, followed by the columns of the groups, which are
-/// given with their names.
+/// Returns the columns of all selected joints and drives, followed by the columns of the groups.
+/// The groups are given with their names.
 ///
 /// # Errors
 /// [`TableError::UnknownReaction`]: a selected name does not exist.
@@ -218,8 +218,8 @@ impl<W: Write> ReactionTable<W> {
     }
 
     /// Writes the reactions at time t and returns the values of the row, without t. `reactions`
-    /// contains **all** joints and drives, in the order of their rows; the table writes the
-    /// selected ones. `groups` contains all components of all groups.
+    /// contains **all** joints and drives, in the order of their rows. The table writes only the
+    /// selected joints and drives. `groups` contains all components of all groups.
     ///
     /// # Errors
     /// - [`TableError::Length`]: the values belong to another mechanism; nothing is written.
@@ -269,8 +269,8 @@ pub fn numbers_of_columns(
     })
 }
 
-/// A component of a reaction by its name, or the named component of its definition (N, N·m); NaN if
-/// the reaction has no component with this name.
+/// Returns the component of a reaction with this name, including the named component of the
+/// definition (N, N·m). Returns NaN if the reaction has no component with this name.
 #[must_use]
 pub fn reaction_component(reaction: &Reaction, space: SpaceKind, name: &str) -> f64 {
     match space.component(name) {
@@ -297,8 +297,9 @@ pub fn write_determined(
     })
 }
 
-/// Copies a table of all values. Values that are not determined on their interval are replaced by
-/// the values of another solution for the multipliers, from a table with the same rows and columns.
+/// Copies a table of all values. A value that is not determined on its interval is replaced by the
+/// value of another solution for the multipliers. This value comes from a table with the same rows
+/// and columns.
 ///
 /// # Errors
 /// [`TableError::Write`]: reading or writing failed.
@@ -316,8 +317,8 @@ pub fn write_chosen(
     })
 }
 
-/// Copies a table; cells that are not determined are copied from the other table, or are empty.
-/// Returns whether any cell is not determined.
+/// Copies a table. A cell that is not determined is copied from the other table; without another
+/// table, the cell is empty. Returns whether a cell is not determined.
 fn copy(
     mut all: impl BufRead,
     mut chosen: Option<impl BufRead>,

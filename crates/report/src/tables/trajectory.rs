@@ -9,8 +9,8 @@ use model::{FrameState, Marker, MeasureKind, Mechanism, Scratch, SpaceKind, Syst
 use super::{Table, TableError};
 use crate::units::SceneUnits;
 
-/// A column of a trajectory or of reactions, with its owner and the name of the quantity. As text
-/// it is `<owner>.<quantity>`, or only the owner.
+/// A column of a trajectory or of reactions. It has an owner and the name of a quantity. The text
+/// of a column is `<owner>.<quantity>`, or only the owner.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Column {
     /// Name of the body, marker, measure, drive or joint.
@@ -128,7 +128,7 @@ impl<'m> Trajectory<'m> {
     }
 
     /// Adds the values for the state (q, v) at time t to `values`. `a` contains the accelerations
-    /// of the bodies (n_v); without them, derived values are NaN.
+    /// of the bodies (n_v). Without accelerations, derived values are NaN.
     ///
     /// # Panics
     /// Panics if q, v and a belong to another mechanism.
@@ -267,7 +267,7 @@ fn is_written(marker: &Marker) -> bool {
     marker.body.moving().is_some()
 }
 
-/// Whether a marker has this column of [`model::SpaceKind::columns`]; a marker without an angle is
+/// Whether a marker has this column of [`model::SpaceKind::columns`]. A marker without an angle is
 /// a point.
 fn has_column(marker: &Marker, column: &str) -> bool {
     marker.angle.is_some()

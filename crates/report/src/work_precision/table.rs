@@ -30,8 +30,8 @@ const HEADER: [&str; 21] = [
     "reference_limit",
 ];
 
-/// One line for each run. Each line is passed to the writer immediately, so an interruption loses
-/// no finished run.
+/// The table has one line for each run. Each line is passed to the writer immediately, so an
+/// interruption loses no finished run.
 pub struct WorkPrecisionTable<W: Write> {
     table: Table<W>,
 }

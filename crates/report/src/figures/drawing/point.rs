@@ -18,7 +18,7 @@ impl Point {
         Self { at, count }
     }
 
-    /// The point with three coordinates; in the plane, z = 0.
+    /// Returns the point with three coordinates. In the plane, z = 0.
     pub(crate) fn at(self) -> [f64; 3] {
         self.at
     }
@@ -35,7 +35,8 @@ impl Serialize for Point {
 pub(crate) struct Curves(Vec<(&'static str, Channel)>);
 
 impl Curves {
-    /// The columns of a table with these names, given row by row.
+    /// Creates curves from the columns of a table. The columns have these names, and the table is
+    /// given row by row.
     pub(crate) fn new(names: &[&'static str], rows: &[Vec<f64>]) -> Self {
         let curve = |k: usize| Channel::new(rows.iter().map(move |row| row[k]));
         let named = names.iter().enumerate();

@@ -11,9 +11,9 @@ use crate::recording::Frame;
 /// Figures use all digits, so only rounding errors remain.
 const ROUNDING: f64 = 1e-12;
 
-/// Curves of pages have 100 000 levels. Centres of mass move by up to 1 m here, so their error is
-/// half a level of 1e-5 m. Components of a quaternion change by up to 2, so two components have
-/// errors of 1e-5 each, and the rotation error of an arm of 1 m is twice as large.
+/// Curves of pages have 100 000 levels. Here centres of mass move by up to 1 m, so the error of a
+/// centre is half a level of 1e-5 m. Components of a quaternion change by up to 2, so each of two
+/// components has an error of 1e-5. The rotation error of an arm of 1 m is twice as large.
 const PAGE: f64 = 0.5e-5 + 2.0 * 1.414 * 1e-5;
 
 const DIAGONAL: [[f64; 3]; 3] = [[0.02, 0.0, 0.0], [0.0, 0.03, 0.0], [0.0, 0.0, 0.04]];

@@ -9,9 +9,8 @@ use crate::channel::FewDigits;
 use crate::figures::geometry::Pitch;
 use crate::figures::projection::unit;
 
-/// A circle belongs to a body if the radius, the centre and the axis in the frame of the body
-/// change by at most this fraction of the size of the picture. Contacts are accurate to the
-/// tolerance of a run.
+/// A circle is fixed to a body if, in the frame of the body, radius, centre and axis change by at
+/// most this fraction of the size of the picture. Contacts are accurate to the tolerance of a run.
 const ROUND: f64 = 1e-6;
 
 /// Number of corners of the polygon by which a circle is drawn.

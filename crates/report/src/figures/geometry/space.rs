@@ -12,8 +12,8 @@ use model::space::{cross, norm};
 use crate::figures::projection::unit;
 use crate::figures::symbol::Symbol;
 
-/// Components of unit forces and torques below this value are rounding errors. The rows of joint
-/// definitions have forces along unit vectors and torques about unit vectors, and their lever arms
+/// Components of unit forces and torques below this value are rounding errors. In the rows of joint
+/// definitions, forces are along unit vectors and torques are about unit vectors. The lever arms
 /// are accurate to ten digits.
 const ROUNDING: f64 = 1e-6;
 

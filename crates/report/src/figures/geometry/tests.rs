@@ -125,7 +125,7 @@ fn wheels_touch_where_their_speeds_agree() {
     for (ratio, point, radii) in [
         // External contact: the second wheel is twice as fast and half as large.
         (-2.0, [4.0 / 3.0, 2.0 / 3.0], [2.0 / 3.0, 1.0 / 3.0]),
-        // Internal contact: the slow wheel is the ring around the other.
+        // Internal contact: the slow wheel is a ring around the fast wheel.
         (0.5, [-2.0, -1.0], [1.0, 2.0]),
     ] {
         let site = gear(ratio);

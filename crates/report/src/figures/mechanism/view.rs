@@ -35,8 +35,8 @@ impl View {
         let (dx, dy) = (x[1] - x[0], y[1] - y[0]);
         let room = [WIDTH - 2.0 * ROOM[0], LARGEST_HEIGHT - 2.0 * ROOM[1]];
         let size = dx.max(dy);
-        // If the extent of a drawing is zero, or only a rounding error of its distance from the
-        // origin, an extent of one metre is used.
+        // An extent of one metre is used if the extent of a drawing is zero or is only a rounding
+        // error of the distance from the origin.
         let far = x[0].abs().max(y[0].abs());
         let scale = if size > 1e-9 * far && size > 1.0 / DRAWABLE {
             (room[0] / dx).min(room[1] / dy)

@@ -13,7 +13,7 @@ use super::{Png, PngError, SOFTWARE, measure};
 const REGULAR: &[u8] = include_bytes!("../../../fonts/DejaVuSansCondensed.ttf");
 const BOLD: &[u8] = include_bytes!("../../../fonts/DejaVuSansCondensed-Bold.ttf");
 
-/// From this weight on, browsers use the bold font of a family.
+/// Smallest font weight for which browsers use the bold font of a family.
 const BOLD_FROM: u16 = 600;
 
 /// Pixels per metre at scale 1: 96 per inch, as in CSS.
@@ -73,7 +73,8 @@ fn options() -> Options<'static> {
     options
 }
 
-/// A font that contains this character, if possible upright and as bold as the first font used.
+/// Returns a font that contains this character. If possible, the font is upright and as bold as the
+/// first font in `used`.
 fn find_font(character: char, used: &[ID], fonts: &mut Arc<Database>) -> Option<ID> {
     let find = FontResolver::default_fallback_selector();
     let is_bold = fonts.face(*used.first()?)?.weight.0 >= BOLD_FROM;
@@ -102,7 +103,7 @@ fn find_boxes(group: &Group, found: &mut BTreeSet<char>) {
     }
 }
 
-/// The pixels as a file. All pixels are opaque, because the page is white.
+/// Returns the pixels as the content of a file. All pixels are opaque, because the page is white.
 fn pack(picture: &Pixmap, scale: f64) -> Result<Vec<u8>, png::EncodingError> {
     let colours = picture.data().chunks_exact(4);
     let colours: Vec<u8> = colours.flat_map(|p| [p[0], p[1], p[2]]).collect();
@@ -112,7 +113,8 @@ fn pack(picture: &Pixmap, scale: f64) -> Result<Vec<u8>, png::EncodingError> {
     encoder.set_depth(BitDepth::Eight);
     encoder.set_compression(Compression::Balanced);
     encoder.set_source_srgb(SrgbRenderingIntent::Perceptual);
-    // The size in documents is the size of the figure and does not depend on the scale.
+    // In a document, the picture has the size of the figure. This size does not depend on the
+    // scale.
     let per_metre = (scale * PER_METRE).round() as u32;
     encoder.set_pixel_dims(Some(PixelDimensions {
         xppu: per_metre,

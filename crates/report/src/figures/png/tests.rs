@@ -6,8 +6,8 @@ use super::*;
 fn a_picture_has_two_pixels_for_each_px_if_it_is_not_too_large() {
     assert_eq!(measure([960.0, 535.4], None), Ok((2.0, [1920, 1071])));
     assert_eq!(measure([960.0, 535.4], Some(0.5)), Ok((0.5, [480, 268])));
-    // A figure of 1000 x 100 000 px can have at most a quarter as many pixels, so the scale is half
-    // a pixel for each px.
+    // For a figure of 1000 x 100 000 px, a quarter of this number of pixels is permitted, so the
+    // scale is half a pixel for each px.
     assert_eq!(measure([1e3, 1e5], None), Ok((0.5, [500, 50_000])));
 }
 
@@ -42,7 +42,7 @@ mod painted {
     use crate::figures::svg::Svg;
     use crate::figures::{Panel, Series, Style, histories};
 
-    /// Properties of a picture that another program reads.
+    /// Properties of a picture, as read by another program.
     struct Read {
         size: [usize; 2],
         colours: Vec<[u8; 3]>,

@@ -60,8 +60,8 @@ fn of(element: impl ConstraintKernels<Space3> + 'static) -> Site {
     drawn(&d)
 }
 
-/// A point of the second body: the point of the first body, displaced by these multiples of the two
-/// perpendicular directions and of the axis.
+/// Returns a point of the second body. It is the point of the first body, displaced by multiples of
+/// the two perpendicular directions and of the axis.
 fn second(moved: [f64; 3]) -> [f64; 3] {
     let uvw = axes().uvw();
     [0, 1, 2].map(|k| POINT[k] - APART[k] + (0..3).map(|j| moved[j] * uvw[j][k]).sum::<f64>())
