@@ -1,4 +1,5 @@
-//! Passes to the program the version of the compiler, which it states in reports of run times.
+//! Passes the version of the compiler to the program. The program states this version in reports of
+//! run times.
 
 use std::process::Command;
 

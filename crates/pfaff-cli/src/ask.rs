@@ -1,5 +1,5 @@
-//! Questions on the command line: the options of a question, the scenes that are its subject, and
-//! the form of its answer. This module refers to no question by name.
+//! Questions on the command line: the options of a question, the scenes to which the question
+//! refers, and the form of the answer. This module contains no name of a question.
 
 use std::ffi::OsStr;
 use std::num::NonZeroUsize;
@@ -31,7 +31,7 @@ pub(crate) struct AskCommand {
     of: CommonOptions,
 }
 
-// The comments of these structs are not help texts; the comments of the questions are.
+// The comments of the questions are help texts. The comments of these structs are not.
 
 /// Options for the files of an answer.
 #[derive(Args, Clone, Default)]
@@ -192,11 +192,11 @@ pub type Asks = Result<Box<dyn AnyAnswer>, Failure>;
 
 /// The requested form of an answer.
 pub struct Asking<'a> {
-    /// Files of the answer and their destination, if they are requested.
+    /// Files of the answer and the destination of the files, if files are requested.
     pub output: Option<(Output, &'a OutputOptions)>,
     /// Whether the answer is requested as a document.
     pub is_json: bool,
-    /// Whether details are printed, too.
+    /// Whether details are also printed.
     pub is_verbose: bool,
     /// Whether values in tables are printed in SI units without prefixes.
     pub is_si: bool,
@@ -268,7 +268,7 @@ impl Asking<'_> {
 pub enum Hears {
     /// The first request ends the work, and the results so far are the answer.
     Stops,
-    /// Requests apply to the caller, which repeats the question.
+    /// Requests apply to the caller, because the caller repeats the question.
     Not,
 }
 
@@ -304,7 +304,8 @@ impl Directory {
         *self.begun.lock().unwrap_or_else(PoisonError::into_inner) = Some(what);
     }
 
-    /// Returns the final action if the work has to be ended: it writes files and returns a message.
+    /// Returns the last action for the case that the process must end early. This action writes
+    /// files and returns a message.
     fn last_act(&self) -> impl Fn() -> String + Send + Sync + use<> {
         let (directory, begun) = (self.directory.clone(), Arc::clone(&self.begun));
         let writing = self.output.writing;
@@ -317,7 +318,8 @@ impl Directory {
         }
     }
 
-    /// Writes the files that are not written yet, and returns a text with their location.
+    /// Writes the files that have not been written yet, and returns a text with the location of the
+    /// files.
     fn write(&self, answer: &dyn AnyAnswer) -> Result<String, Failure> {
         let (path, family) = (self.path.display().to_string(), self.output.family);
         if self.output.is_streamed() {

@@ -13,7 +13,7 @@ use serde::Serialize;
 use crate::interrupt::note_answer;
 use crate::output::{Answer, Failure, Outcome, Refusal, json, visible};
 
-/// An output stream, with the information whether it can show colours.
+/// An output stream, and whether it can show colours.
 pub struct Stream<'w> {
     writer: &'w mut dyn Write,
     is_terminal: bool,
@@ -28,7 +28,7 @@ impl<'w> Stream<'w> {
         }
     }
 
-    /// Wraps a stream of the process, with colours if it is a terminal.
+    /// Wraps a stream of the process. If the stream is a terminal, it shows colours.
     pub fn terminal(writer: &'w mut (impl Write + IsTerminal)) -> Self {
         Self {
             is_terminal: writer.is_terminal(),
@@ -63,8 +63,8 @@ impl<'c> Console<'c> {
     /// Writes an answer.
     ///
     /// # Errors
-    /// [`Failure::Closed`] if the reader has closed the output, [`Refusal::Stopped`] if the output
-    /// cannot be written.
+    /// Returns [`Failure::Closed`] if the reader has closed the output, and [`Refusal::Stopped`] if
+    /// the output cannot be written.
     pub fn print(&self, text: &str) -> Outcome {
         self.write(|out| out.write_all(visible(text).as_bytes()))
     }
@@ -91,8 +91,8 @@ impl<'c> Console<'c> {
         })
     }
 
-    /// Writes the results of an incomplete computation. The function always returns this outcome,
-    /// whether or not the output can be written.
+    /// Writes the results of an incomplete computation. Returns the same failure even if the output
+    /// cannot be written.
     pub fn incomplete(&self, text: &str) -> Failure {
         match self.print(text) {
             Ok(()) | Err(Failure::Closed) => Failure::Incomplete,
@@ -119,8 +119,8 @@ impl<'c> Console<'c> {
         is_coloured(&self.out.borrow())
     }
 
-    /// Reports the reason why a command did not finish, as text or as a document that replaces the
-    /// answer, and returns the exit code.
+    /// Reports the reason why a command did not finish, and returns the exit code. The report is a
+    /// text, or a document that replaces the answer.
     pub fn report(&self, failure: Failure, answer: Answer) -> ExitCode {
         let code = match failure {
             Failure::Closed => return ExitCode::SUCCESS,
@@ -187,7 +187,7 @@ fn rendered(message: &clap::Error, stream: &Stream<'_>) -> String {
     }
 }
 
-/// Returns an error in the command line without its paragraphs about usage.
+/// Returns the message of an error in the command line without the paragraphs about usage.
 fn in_one_line(message: &clap::Error) -> String {
     if message.kind() == NO_COMMAND {
         return "the command line contains no command; `--help` lists all".to_owned();
@@ -209,8 +209,9 @@ fn unprintable(e: &io::Error) -> Failure {
     Failure::stopped(format!("cannot write to standard output: {e}")).coded(const { Code::new(6) })
 }
 
-/// Whether the stream shows colours and the user enables them: an empty `NO_COLOR` counts as not
-/// set (no-color.org), and a dumb terminal would print the colour codes.
+/// Whether the stream shows colours and the user permits colours. An empty `NO_COLOR` counts as not
+/// set (no-color.org). A dumb terminal counts as a terminal without colours, because it would print
+/// the colour codes.
 fn is_coloured(stream: &Stream<'_>) -> bool {
     let refused = std::env::var_os("NO_COLOR").is_some_and(|value| !value.is_empty());
     let is_dumb = std::env::var_os("TERM").is_some_and(|value| value == "dumb");

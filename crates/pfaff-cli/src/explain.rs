@@ -1,5 +1,4 @@
-//! The command `pfaff explain`: prints the meaning of the code of an error, and the possible
-//! remedies.
+//! The command `pfaff explain`: prints the meaning of an error code, and the possible remedies.
 
 use pfaff::documents::CodesDocument;
 use pfaff::explain;

@@ -20,7 +20,7 @@ pub use pfaff::source::LARGEST;
 pub(crate) struct Source<'r> {
     pub(crate) name: String,
     pub(crate) text: String,
-    /// The load case whose values the text has.
+    /// The load case whose values the text contains.
     case: Option<String>,
     /// Tolerance that takes precedence over the tolerance that the scene states.
     pub(crate) tolerance: Tolerance,
@@ -81,9 +81,9 @@ pub(crate) fn text_of(path: &Path) -> Result<(String, String), Failure> {
     Ok(source::of_file(path)?)
 }
 
-/// Returns the text of a scene in which the values of the load case, and then these values, replace
-/// its own. A text that is not a scene remains unchanged, because the reader of scenes reports its
-/// errors.
+/// Returns the text of a scene in which values are replaced, first by the values of the load case,
+/// then by these values. A text that is not a scene remains unchanged, because the reader of scenes
+/// reports the errors of the text.
 fn with_settings(
     text: String,
     Settings { list, case }: &Settings,
@@ -100,8 +100,8 @@ fn with_settings(
     }
 }
 
-/// Builds the error for a file that cannot be read; it suggests a scene in the same directory with
-/// a similar name.
+/// Builds the error for a file that cannot be read. The error suggests a scene in the same
+/// directory with a similar name.
 pub fn unreadable(path: &Path, e: &io::Error) -> Failure {
     source::unreadable(path, e).into()
 }

@@ -1,6 +1,6 @@
 //! Requests to stop from outside: Ctrl-C, the end of the terminal, and the termination signal. A
-//! command that has results to keep receives the first request and ends itself. If it has not ended
-//! after a short time, or at the second request, its process ends.
+//! command that has results to keep receives the first request and ends itself. If the command has
+//! not ended after a short time, or if there is a second request, the process ends.
 
 use std::io::{self, Write};
 use std::process;
@@ -17,19 +17,20 @@ use crate::output::{Answer, Failure};
 /// Exit code of a program that was interrupted.
 const INTERRUPTED: i32 = 1;
 
-/// Time within which a command has to end itself. Together with the time for its last action it is
-/// less than a second, after which users press Ctrl-C again.
+/// Time within which a command must end itself. The sum of this time and the time for the last
+/// action is less than a second, because users press Ctrl-C again after about a second.
 const GRACE: Duration = Duration::from_millis(600);
 
 /// Time for the last action of a command that has not ended itself.
 const LAST_ACT: Duration = Duration::from_millis(250);
 
-/// Time for the last action at a second request, which does not wait for the command. A disk that
-/// is busy with the files of others takes longer than [`LAST_ACT`] to rename a file.
+/// Time for the last action after a second request. In this case, the process does not wait for the
+/// command. A disk that is busy with files of other processes needs longer than [`LAST_ACT`] to
+/// rename a file.
 const LAST_ACT_AT_ONCE: Duration = GRACE.saturating_add(LAST_ACT);
 
-/// The last action of a command that is ended: it completes the files, and returns a text on the
-/// saved results.
+/// The last action of a command that must end early. It completes the files, and returns a text
+/// about the saved results.
 type LastAct = Arc<dyn Fn() -> String + Send + Sync>;
 
 /// Requests to stop for a command that keeps its results.
@@ -37,9 +38,9 @@ pub struct Interrupt(Arc<AtomicBool>);
 
 /// The current effect of a request.
 enum Action {
-    /// Ends the process with this exit code; for a code other than 0 it prints this message.
+    /// Ends the process with this exit code. For a code other than 0, this message is printed.
     End(i32, &'static str),
-    /// The command receives the request; the process ends after a time limit, or at the second
+    /// The command receives the request. The process ends after a time limit, or at the second
     /// request.
     Hear {
         asked: Arc<AtomicBool>,
@@ -47,8 +48,7 @@ enum Action {
     },
 }
 
-/// The current effect, and the form of its message. A later command of the same process replaces
-/// it.
+/// The current effect of a request. A later command of the same process replaces this value.
 static ACTION: Mutex<Option<Action>> = Mutex::new(None);
 static AS_JSON: AtomicBool = AtomicBool::new(false);
 /// Whether a thread is ending the process.
@@ -60,16 +60,16 @@ impl Interrupt {
     /// Starts to listen for requests.
     ///
     /// # Errors
-    /// Returns an error if the system does not allow it.
+    /// Returns an error if the system does not allow the program to listen.
     pub fn listen() -> Result<Self, Failure> {
         Self::listen_with(|| "interrupted".to_owned())
     }
 
-    /// Starts to listen for requests; `last_act` completes the files if the command has to be
-    /// ended, and returns a text on the saved results.
+    /// Starts to listen for requests. If the command must end early, `last_act` completes the files
+    /// and returns a text about the saved results.
     ///
     /// # Errors
-    /// Returns an error if the system does not allow it.
+    /// Returns an error if the system does not allow the program to listen.
     pub fn listen_with(
         last_act: impl Fn() -> String + Send + Sync + 'static,
     ) -> Result<Self, Failure> {
@@ -81,7 +81,7 @@ impl Interrupt {
         Ok(Self(asked))
     }
 
-    /// Starts to listen for a command without results to keep: the first request ends it.
+    /// Starts to listen for a command without results to keep. The first request ends the command.
     ///
     /// # Errors
     /// Returns the errors of [`Interrupt::listen`].
@@ -89,8 +89,8 @@ impl Interrupt {
         on_request(Action::End(INTERRUPTED, NOTHING_WRITTEN))
     }
 
-    /// Starts to listen for a command that runs until it is stopped: a request is its normal end,
-    /// not a failure.
+    /// Starts to listen for a command that runs until it is stopped. A request is the normal end of
+    /// the command, not a failure.
     ///
     /// # Errors
     /// Returns the errors of [`Interrupt::listen`].
@@ -105,8 +105,9 @@ impl Interrupt {
 }
 
 impl Drop for Interrupt {
-    /// The command has ended, so no last action is needed. A last action that has begun ends the
-    /// process: the command fails when its files are taken from it, and must not end it first.
+    /// The command has ended, so no last action is needed. If a last action has begun, this action
+    /// ends the process. The last action takes the files from the command, so the command fails;
+    /// the command must not end the process first.
     fn drop(&mut self) {
         let mut present = action();
         if IS_ENDING.load(Ordering::Relaxed) {
@@ -176,13 +177,14 @@ fn heard() {
                 }
             };
             if thread::Builder::new().spawn(late).is_err() {
-                // In this case only a second request ends the process.
+                // In this case, only a second request ends the process.
             }
         }
     }
 }
 
-/// Ends the process after its last action and its last message, if they take less than `limit`.
+/// Ends the process after the last action and the last message. The process ends earlier if both
+/// take longer than `limit`.
 fn end(
     present: MutexGuard<'_, Option<Action>>,
     code: i32,

@@ -30,12 +30,12 @@ pub use console::Stream;
 use output::{Answer, Outcome};
 pub use pfaff::command::named;
 
-/// Runs one command: `arguments` begins with the name of the program, `registry` contains the
+/// Runs one command. `arguments` begins with the name of the program. `registry` contains the
 /// joints and forces that scenes can use.
 ///
-/// Answers are written to `out`, errors to `err`. Exit codes: 0 means success (also if the reader
-/// has closed `out`), 1 means that the computation stopped or was interrupted, and 2 means invalid
-/// input. With `--json`, `out` receives exactly one document in every case.
+/// Answers are written to `out`, and errors to `err`. The exit code 0 means success (also if the
+/// reader has closed `out`), 1 means that the computation stopped or was interrupted, and 2 means
+/// invalid input. With `--json`, `out` receives exactly one document in every case.
 ///
 /// ```
 /// use pfaff::model::Registry;
@@ -70,7 +70,7 @@ pub trait CommandLine: Parser {
     fn run(&self, console: &Console<'_>) -> Outcome;
 }
 
-/// Runs one command line, as [`run`] does, for a program with additional commands.
+/// Runs one command line. This function works like [`run`], for a program with additional commands.
 pub fn serve<'a, C, I>(
     registry: &'a Registry,
     arguments: I,
@@ -97,8 +97,8 @@ where
     }
 }
 
-/// Adds a suggestion to an error about an unknown word of the command line: the name of the same
-/// concept in this program, if clap finds no similar word.
+/// Adds a suggestion to an error about an unknown word of the command line, if clap finds no
+/// similar word. The suggestion is the name of the same concept in this program.
 fn with_suggestion(mut e: clap::Error, program: clap::Command, words: &[OsString]) -> clap::Error {
     let said = |kind| match e.get(kind) {
         Some(ContextValue::String(word)) => Some(word.clone()),

@@ -1,4 +1,4 @@
-//! The form of answers and failures; the console decides where they are written.
+//! The form of answers and failures. The console writes them.
 
 use std::ffi::{OsStr, OsString};
 use std::path::Path;
@@ -25,7 +25,7 @@ pub enum Answer {
 }
 
 impl Answer {
-    /// Returns the form that the words of an invalid command line request.
+    /// Returns the form of the answer that an invalid command line requests.
     pub fn asked_by(words: &[OsString]) -> Self {
         let mut options = words.iter().take_while(|word| *word != "--");
         if options.any(|word| word == "--json") {
@@ -45,7 +45,7 @@ pub enum Failure {
     Refused(Refusal),
     /// The reader has closed the output.
     Closed,
-    /// The computation stopped or was interrupted; its partial results have already been written.
+    /// The computation stopped or was interrupted. Its partial results have already been written.
     Incomplete,
 }
 
@@ -68,7 +68,7 @@ impl From<Refusal> for Failure {
 }
 
 impl Failure {
-    /// Creates a failure because of invalid input; the message states how to correct it.
+    /// Creates a failure because of invalid input. The message states how to correct the input.
     pub fn input(message: String) -> Self {
         Refusal::input(message).into()
     }
@@ -121,8 +121,8 @@ impl Failure {
     }
 }
 
-/// The files of an answer, which receive their names together. A request to stop before that time
-/// leaves no file.
+/// The files of an answer. All files receive their final names together. If a request to stop comes
+/// earlier, no file remains.
 pub(crate) struct Files {
     directory: OutputDirectory,
     family: Family,
@@ -155,7 +155,7 @@ impl Files {
     }
 
     /// Gives all files their final names, and removes the files of an earlier answer. Returns a
-    /// text on the files of other commands in the directory.
+    /// text about the files of other commands in the directory.
     pub(crate) fn finish(self) -> Result<String, Failure> {
         if self.interrupt.is_asked() {
             return Err(Failure::stopped(NOTHING_WRITTEN.to_owned()).coded(INTERRUPTED));
@@ -186,8 +186,8 @@ pub(crate) fn write_file(path: &Path, content: &[u8], replaces: Replaces) -> Out
     files.finish().map(drop)
 }
 
-/// Returns a sentence on the files of other commands in a directory; empty if there are no such
-/// files.
+/// Returns a sentence about the files of other commands in a directory. The text is empty if there
+/// are no such files.
 pub(crate) fn beside(directory: &OutputDirectory, family: Family) -> String {
     if family == SINGLE {
         return String::new();

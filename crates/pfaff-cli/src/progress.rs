@@ -79,7 +79,7 @@ impl Progress {
             if let Ok(style) = ProgressStyle::with_template(style) {
                 bar.set_style(style);
             }
-            // The part that was done before does not count for the speed.
+            // The part that an earlier command completed does not count for the speed.
             bar.set_position(done);
             bar.reset_eta();
             lines.push(Line { what, bar });
@@ -94,7 +94,7 @@ impl Progress {
             bar.set_style(style);
         }
         bar.set_message(format!("{what}: {}", Bytes(bytes as u64)));
-        // The bar is updated on a separate thread; without this thread it does not move.
+        // The bar is updated on a separate thread. Without this thread, the bar does not change.
         if !bar.is_hidden() && thread::Builder::new().spawn(|| ()).is_ok() {
             bar.enable_steady_tick(Duration::from_millis(100));
         }

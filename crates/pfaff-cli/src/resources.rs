@@ -1,5 +1,5 @@
 //! Limits of a command: threads and memory. A command that needs more memory than is available is
-//! rejected before it starts, with the number of bytes.
+//! rejected before it starts. The error contains the number of bytes.
 
 use std::num::NonZeroUsize;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -26,8 +26,8 @@ pub(crate) struct Memory {
     pub(crate) max_memory: Option<Bytes>,
 }
 
-/// Starts the threads of all parallel computations; if the system does not allow them, the command
-/// prints one message.
+/// Starts the threads of all parallel computations. If the system does not allow the threads, the
+/// command prints one message.
 pub(crate) fn start_threads(threads: Option<NonZeroUsize>, console: &Console<'_>) {
     static TOLD: AtomicBool = AtomicBool::new(false);
     if !pfaff::start_threads(threads) && !TOLD.swap(true, Ordering::Relaxed) {

@@ -128,11 +128,12 @@ fn place(arguments: &View) -> Result<(PathBuf, Form), Failure> {
     Ok((path, form))
 }
 
-/// Opens a file with the system's program for such files, without waiting for it.
+/// Opens a file with the system's program for such files. The function does not wait for this
+/// program.
 fn show(path: &Path) -> Result<(), String> {
     let (program, before): (_, &[&str]) = match env::consts::OS {
         "macos" => ("open", &[]),
-        // Without this argument the first quoted word would be the title of a window.
+        // Without this empty argument, the first quoted word would be the title of a window.
         "windows" => ("cmd", &["/C", "start", ""]),
         _ if !has_display() => return Err("there is no display".to_owned()),
         _ => ("xdg-open", &[]),
@@ -154,7 +155,8 @@ fn has_display() -> bool {
     is_set("DISPLAY") || is_set("WAYLAND_DISPLAY")
 }
 
-/// Returns a line on characters that are drawn as boxes; empty if there are no such characters.
+/// Returns a line about characters that are drawn as boxes. The text is empty if there are no such
+/// characters.
 fn missing(boxes: &str) -> String {
     if boxes.is_empty() {
         return String::new();

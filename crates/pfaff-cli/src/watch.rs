@@ -14,7 +14,8 @@ use crate::output::{Failure, Outcome, visible};
 /// Time between two checks of the files.
 const PAUSE: Duration = Duration::from_millis(500);
 
-/// Number of checks after which a missing file is reported: editors replace a file by another one.
+/// Number of checks after which a missing file is reported. Editors may remove a file for a short
+/// time when they save it.
 const PATIENCE: usize = 3;
 
 /// Prints the answer, and prints it again whenever one of the files has changed.
@@ -28,7 +29,7 @@ pub(crate) fn run(
             "--watch looks at a file again and again; standard input comes once".to_owned(),
         ));
     }
-    // If a file does not exist at the beginning, its name is wrong.
+    // If a file does not exist at the beginning, the name of the file is wrong.
     let mut seen = stamps(paths)?;
     let named: Vec<String> = paths
         .iter()

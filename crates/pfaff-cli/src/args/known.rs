@@ -1,4 +1,4 @@
-//! Options of the command line that change values of a scene, or the accuracy of its data.
+//! Options of the command line that change values of a scene or the accuracy of the data.
 
 use clap::Args;
 use pfaff::model::Tolerance;
