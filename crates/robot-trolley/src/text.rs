@@ -1,11 +1,11 @@
-//! The printed text: published results and computed ones for comparison.
+//! The printed text: published results, and computed results for comparison.
 
 use pfaff::model::{Mechanism, System};
 use pfaff::solvability::Analysis;
 
 use crate::variants::{DELETED, TOLERANCE, Variant, motion_difference, reaction_difference};
 
-/// Reactions that the paper found not to be unique.
+/// Reactions that are not unique according to the paper.
 const PUBLISHED: [&str; 6] = ["B", "C", "W1", "W2", "W3", "W4"];
 
 /// Sizes and ranks.

@@ -1,5 +1,5 @@
-//! Three ways to eliminate the two redundant rows, run one after the other, and a run on generated
-//! code with the rows that are chosen automatically.
+//! Three runs that eliminate the two redundant rows in different ways, and a run on generated code
+//! with automatically chosen rows.
 
 use std::ops::ControlFlow;
 use std::sync::Arc;
@@ -16,7 +16,7 @@ const SCENE: &str = include_str!("../robot-trolley.toml");
 /// The published variants: rows to delete, counted from 1.
 pub(crate) const DELETED: [[usize; 2]; 3] = [[6, 21], [18, 21], [19, 21]];
 
-/// Tolerance of the runs; differences between them are compared with it.
+/// Tolerance of the runs. Differences between runs are compared with this tolerance.
 pub(crate) const TOLERANCE: f64 = 1e-11;
 
 /// Time between compared instants (s).
@@ -39,7 +39,7 @@ pub(crate) struct Instant {
     pub(crate) reactions: Vec<Reaction>,
 }
 
-/// Reads the scene, with the given rows dropped.
+/// Reads the scene and drops the given rows.
 pub(crate) fn read(overrides: &RunOptions) -> Result<Study, StudyError> {
     Study::read(
         "robot-trolley.toml",
@@ -63,7 +63,7 @@ fn run_one(deleted: [usize; 2]) -> Result<Variant, Box<dyn std::error::Error>> {
     run_study(&study, deleted, RowChoice::Drop(drop))
 }
 
-/// The motion on generated code, with the rows (from 1) that it drops.
+/// Computes the motion on generated code, and returns it with the dropped rows (1-based).
 pub(crate) fn generated() -> Result<Variant, Box<dyn std::error::Error>> {
     let mut study = read(&RunOptions::default())?;
     let code: Arc<SharedCode> = Arc::new(automatic::Code);
