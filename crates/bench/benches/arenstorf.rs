@@ -1,8 +1,9 @@
-//! Computes one period of the Arenstorf orbit by the explicit methods:
+//! Computes one period of the Arenstorf orbit with the explicit methods:
 //! `cargo bench -p bench --bench arenstorf`.
 //!
-//! Before the times, it prints for each argument the number of evaluations, the error, and the
-//! total time per evaluation (ns). The errors are asserted. Other libraries are not compared here.
+//! Before the times, the benchmark prints the number of evaluations, the error, and the total time
+//! per evaluation (ns) for each argument. The benchmark asserts the errors. It does not compare
+//! other libraries.
 
 use std::hint::black_box;
 use std::ops::ControlFlow;

@@ -103,8 +103,8 @@ fn right_hand_side(bencher: Bencher<'_, '_>) {
     bencher.bench_local(|| motion.acceleration(black_box(1.5), &p.q, &p.v, black_box(&mut a)));
 }
 
-/// Solves the saddle-point equations of the same size by dense LU of nalgebra, for comparison; the
-/// assembly of the matrix is not measured.
+/// For comparison, solves saddle-point equations of the same size with the dense LU of nalgebra.
+/// The assembly of the matrix is not measured.
 #[divan::bench]
 fn dense_lu_41_of_nalgebra(bencher: Bencher<'_, '_>) {
     let a = nalgebra::DMatrix::from_fn(41, 41, |i, j| {

@@ -47,7 +47,7 @@ fn unique(s: &Solvability, groups: &[RowRanges]) -> usize {
         .count()
 }
 
-/// Computes rank, dependencies and proof, with the entries as exact values.
+/// Computes rank, dependencies and proof. The entries count as exact values.
 #[divan::bench]
 fn certify_exact(bencher: Bencher<'_, '_>) {
     let (c, _) = matrix();
@@ -55,8 +55,8 @@ fn certify_exact(bencher: Bencher<'_, '_>) {
     bencher.bench_local(|| rank::certify_exact(black_box(&c)));
 }
 
-/// Computes rank, dependencies and bounds, with entries that are uncertain within the accuracy of
-/// the data.
+/// Computes rank, dependencies and bounds. The entries are uncertain within the accuracy of the
+/// data.
 #[divan::bench]
 fn certify_within(bencher: Bencher<'_, '_>) {
     let c = DdMatrix::from(&matrix().0);

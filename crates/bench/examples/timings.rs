@@ -10,7 +10,7 @@ use linalg::{KeptRowSaddle, Matrix, singular_values};
 use nalgebra::{DMatrix, DVector};
 use rank::decide;
 
-/// Returns the time of one call in microseconds, as the median over batches.
+/// Returns the time of one call (µs), which is the median over batches.
 fn microseconds(mut call: impl FnMut()) -> f64 {
     const BATCHES: usize = 31;
     const BATCH_SECONDS: f64 = 0.01;
@@ -30,7 +30,7 @@ fn microseconds(mut call: impl FnMut()) -> f64 {
     times[BATCHES / 2]
 }
 
-/// Returns r×n rows with `per_row` entries each, or with all entries.
+/// Returns an r×n matrix with `per_row` entries in each row, or with all entries.
 fn rows(r: usize, n: usize, per_row: usize) -> Matrix {
     Matrix::from_fn(r, n, |i, j| {
         if (j + n - i) % n < per_row {

@@ -25,7 +25,7 @@ use crate::saddle::Saddle;
 pub(crate) enum Group {
     /// (t, q, v) → v̇.
     RightHandSide,
-    /// The assembled saddle equations → v̇ and λ, without an evaluation of their coefficients.
+    /// The assembled saddle equations → v̇ and λ. The coefficients are not evaluated.
     Solve,
     /// (t, q, v) → C and Γ.
     Matrices,
@@ -66,8 +66,8 @@ pub(crate) struct Work<'r> {
 /// state. The condition number of the problem is at most 1/σ_r ≈ 25. The bound has a margin for
 /// solvers that square the condition number or truncate singular values.
 const AGREES: f64 = 1e-10;
-/// Singular values below this fraction of the largest one count as zero. If all rows are used, the
-/// smallest nonzero singular value is 1e-3 times the largest one.
+/// Singular values below this fraction of the largest singular value count as zero. If all rows are
+/// used, the smallest nonzero singular value is 1e-3 times the largest.
 const SINGULAR: f64 = 1e-9;
 
 /// Returns the candidates, in the order of the table.
@@ -142,7 +142,7 @@ pub(crate) fn all(robot: &Robot) -> Outcome<Vec<Work<'_>>> {
 /// Evaluates a candidate at a state and writes the result into the given slice.
 type Call<'r> = Box<dyn FnMut(&State, &mut [f64]) -> bool + 'r>;
 
-/// L states; the last index selects the state.
+/// Values at L states. The last index selects the state.
 struct Lanes<const L: usize> {
     t: [f64; L],
     q: [[f64; L]; automatic::N_Q],
@@ -364,8 +364,8 @@ fn dense_svd(robot: &Robot) -> Call<'_> {
     })
 }
 
-/// The rows of C_K come from the assembled matrix of a state, whose columns after the mass matrix
-/// are C_Kᵀ.
+/// The rows of C_K come from the assembled matrix of a state. In this matrix, the columns after the
+/// mass matrix are C_Kᵀ.
 fn solve_kept_rows(robot: &Robot) -> Outcome<Call<'_>> {
     let mass = robot.prepared.mechanism.mass();
     let (n, r) = (mass.len(), robot.prepared.decision.kept.len());

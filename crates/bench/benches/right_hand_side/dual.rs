@@ -23,7 +23,8 @@ const REVOLUTES: [(usize, usize, [f64; 2]); 7] = [
     (4, 5, [-0.2, -0.2]),
 ];
 
-/// Body and position of the knife edges W1 … W5. The normal of each is the y-axis of its body.
+/// Body and position of each of the knife edges W1 … W5. The normal of a knife edge is the y-axis
+/// of its body.
 const EDGES: [(usize, [f64; 2]); 5] = [
     (1, [0.3, 0.0]),
     (2, [-0.3, 0.0]),
@@ -143,8 +144,8 @@ fn revolute<D: Number>(x: &[[D; 3]; 2], s: [[f64; 2]; 2]) -> [D; 2] {
     [i[0] - j[0], i[1] - j[1]]
 }
 
-/// The second point is on the y-axis of the first body, both bodies are parallel, and the
-/// displacement is f.
+/// Requires that the second point is on the y-axis of the first body, both bodies are parallel, and
+/// the displacement is f.
 fn slide<D: Number>(x: &[[D; 3]; 2], s: [[f64; 2]; 2], f: D) -> [D; 3] {
     let (i, j) = (point(&x[0], s[0]), point(&x[1], s[1]));
     let (sin, cos) = x[0][2].sin_cos();

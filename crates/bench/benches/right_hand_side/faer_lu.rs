@@ -1,5 +1,5 @@
-//! Solves the dense equations by faer. The method is LU with partial pivoting, in place and on one
-//! thread; all storage is allocated in advance.
+//! Solves the dense equations with faer. The method is LU with partial pivoting, in place and on
+//! one thread. All storage is allocated in advance.
 
 use faer::dyn_stack::{MemBuffer, MemStack, StackReq};
 use faer::linalg::lu::partial_pivoting::{factor, solve};
@@ -26,8 +26,8 @@ impl FaerLu {
         }
     }
 
-    /// Factors `matrix` (column-major) in place; on entry `x` contains the right-hand side, and on
-    /// return the solution.
+    /// Factors `matrix` (column-major) in place. On entry, `x` contains the right-hand side; on
+    /// return, it contains the solution.
     pub(crate) fn solve(&mut self, matrix: &mut [f64], x: &mut [f64]) {
         let Self {
             n,

@@ -1,4 +1,4 @@
-//! A bar chart of times on a logarithmic axis, the shortest on top.
+//! A bar chart of times on a logarithmic axis. The shortest time is at the top.
 
 use std::fmt::Write;
 

@@ -1,6 +1,6 @@
-//! Counts instructions per call with callgrind; the counts do not depend on other processes or on
-//! the speed of the processor. Callgrind does not offer AVX-512 to programs, so faer uses its AVX2
-//! kernels in this measurement.
+//! Counts instructions per call with callgrind. The counts do not depend on other processes or on
+//! the speed of the processor. Callgrind does not support AVX-512, so faer uses its AVX2 kernels in
+//! this measurement.
 
 use std::process::Command;
 

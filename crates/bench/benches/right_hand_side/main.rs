@@ -1,7 +1,7 @@
 //! Compares all known methods for the right-hand side of the robot with its trolley in one run:
 //! `cargo bench -p bench --bench right_hand_side`. Candidates alternate, so that ratios are correct
 //! on a processor with changing speed. Before its time is measured, each candidate must return the
-//! same accelerations (or matrices) as the others.
+//! same accelerations (or matrices) as all other candidates.
 //!
 //! | arguments | action |
 //! | --- | --- |

@@ -17,8 +17,8 @@ pub(crate) fn solve_dynamic(matrix: DMatrix<f64>, x: &mut DVector<f64>) -> bool 
     matrix.lu().solve_mut(x)
 }
 
-/// Computes the least-norm solution of a singular system; singular values below `tolerance` times
-/// the largest count as zero.
+/// Computes the least-norm solution of a singular system. Singular values below `tolerance` times
+/// the largest singular value count as zero.
 pub(crate) fn solve_singular(
     matrix: DMatrix<f64>,
     load: &DVector<f64>,

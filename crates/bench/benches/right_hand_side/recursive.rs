@@ -9,7 +9,7 @@
 //!
 //! `(Σ Jᵀ·M·J)·u̇ = −Σ Jᵀ·M·Γ`.
 //!
-//! At states that violate the constraints, which occur in the stages of an integrator, the
+//! States that violate the constraints occur in the stages of an integrator. At these states, the
 //! accelerations differ from the accelerations of the other methods. Vectors are in the frame of
 //! the platform.
 

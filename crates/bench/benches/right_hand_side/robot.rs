@@ -11,7 +11,7 @@ use crate::Outcome;
 use crate::saddle::Saddle;
 
 /// Time between the states (s). The first state is at half of this interval, so that no state is at
-/// a break time of the drive. At half of the states the robot is turning.
+/// a break time of the drive. The robot turns at half of the states.
 const STEP: f64 = 0.5;
 
 /// The robot and states of its motion.

@@ -1,6 +1,6 @@
 //! Simulates ten seconds of the robot with a required error. The program first finds the loosest
 //! tolerance that achieves this error, because the runs are compared at equal errors and not at
-//! equal tolerances. A run has two output rows, which are not written to a file. The measured time
+//! equal tolerances. A run has two output rows. They are not written to a file. The measured time
 //! does not include the computation of the initial state, but it includes the allocation of the
 //! results.
 
@@ -73,9 +73,9 @@ struct Found {
     summary: Summary,
 }
 
-/// Finds the loosest tolerance such that this and all tighter tolerances achieve the required
-/// error. Tolerances are tried from the tightest one on, so that a loose tolerance that achieves
-/// the error by chance does not count.
+/// Finds the loosest tolerance for which this tolerance and all tighter tolerances achieve the
+/// required error. The search starts with the tightest tolerance, so that a loose tolerance that
+/// achieves the error by chance does not count.
 fn loosest(prepared: &PreparedMechanism, wanted: f64, known: &[f64]) -> Outcome<Found> {
     let mut best = None;
     for k in (PER_DECADE * DECADES[1]..=PER_DECADE * DECADES[0])

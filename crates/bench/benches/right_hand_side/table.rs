@@ -22,7 +22,7 @@ pub(crate) struct Line {
 }
 
 impl Line {
-    /// Creates the line of a measured candidate; `instructions` is the number of instructions of
+    /// Creates the line of a measured candidate. `instructions` is the number of instructions of
     /// one lap.
     pub(crate) fn new(work: &Work<'_>, time: Time, instructions: Option<u64>) -> Self {
         Self {
@@ -34,7 +34,8 @@ impl Line {
         }
     }
 
-    /// Whether the candidate is code of this project, with which the others are compared.
+    /// Whether the candidate is code of this project. The other candidates are compared with code
+    /// of this project.
     pub(crate) fn is_ours(&self) -> bool {
         self.title.starts_with("**")
     }

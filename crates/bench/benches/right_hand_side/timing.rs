@@ -1,7 +1,7 @@
-//! Measures times of candidates that alternate. All candidates run in each round, so that changes
-//! of the speed of the machine affect all of them equally. Other processes can only add time.
-//! Therefore the least time over the rounds is the time that a candidate needs, and the median
-//! shows the time added by other processes.
+//! Measures the times of candidates. All candidates run in each round, so that changes of the speed
+//! of the machine affect all candidates equally. Other processes can only add time. Therefore the
+//! least time over the rounds is the time that a candidate needs, and the median shows the time
+//! added by other processes.
 
 use std::time::{Duration, Instant};
 
@@ -22,7 +22,7 @@ pub(crate) struct Time {
     pub(crate) least: f64,
 }
 
-/// Measures the times of all candidates; the first round is a warm-up and is not counted.
+/// Measures the times of all candidates. The first round is a warm-up and is not counted.
 pub(crate) fn take_turns(works: &mut [Work<'_>]) -> Vec<Time> {
     let mut times = vec![Vec::with_capacity(ROUNDS); works.len()];
     for round in 0..=ROUNDS {
