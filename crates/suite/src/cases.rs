@@ -72,8 +72,8 @@ macro_rules! case {
 /// The scene of the robot with its trolley.
 pub const ROBOT: &str = include_str!("../scenes/robot-trolley.toml");
 
-/// Cases for the comparison of methods. The cases make different demands on a method, and each run
-/// takes less than a second.
+/// Cases for the comparison of methods. The cases have different difficulties, and each run takes
+/// less than a second.
 pub const COMPARED: [Case; 11] = [
     case!(
         "robot-trolley",

@@ -1,5 +1,5 @@
 //! Generates large scenes with known results. The mechanisms belong to families and can have any
-//! size; their text is written in sequence.
+//! size. The text of a scene is written in sequence.
 //!
 //! An [`Order`] is a request, which [`Order::generate`] checks. A [`Generator`] contains the known
 //! results and writes the scene. Equal requests result in identical files. This module reads no

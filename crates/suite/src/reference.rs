@@ -1,4 +1,4 @@
-//! Reference values: known values of a motion at given instants, with their accuracy.
+//! Reference values: known values of a motion at given instants, and the accuracy of these values.
 
 /// A quantity of a body, a joint or a drive, in SI units and radians, with global components.
 /// Reactions are the forces on the first body.
@@ -117,8 +117,8 @@ pub struct Instant {
     pub facts: Vec<Fact>,
 }
 
-/// Largest errors of the values of each kind, relative to the largest value of the kind; infinite
-/// if no value of the kind is known.
+/// Largest errors of the values of each kind, relative to the largest value of the kind. The error
+/// is infinite if no value of the kind is known.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Trust {
     /// Coordinates.

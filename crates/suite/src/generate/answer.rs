@@ -20,8 +20,8 @@ pub struct Answer {
 }
 
 impl Answer {
-    /// The result for planar bodies with this number of rows, of which `redundancy` rows depend on
-    /// the others.
+    /// Creates the result for planar bodies with this number of rows. `redundancy` of these rows
+    /// depend on the other rows.
     pub(super) fn new(
         bodies: usize,
         joints: usize,
@@ -51,7 +51,7 @@ pub struct FreeReaction {
     pub free: Free,
 }
 
-/// The undetermined part of a reaction; the rest is determined.
+/// The undetermined part of a reaction. The rest of the reaction is determined.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Free {
     /// The force, in every direction.

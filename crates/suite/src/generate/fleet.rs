@@ -1,4 +1,4 @@
-//! Copies of the robot with its trolley in a row; a spring with a damper couples the platforms of
+//! A row of copies of the robot with its trolley. A spring with a damper couples the platforms of
 //! neighbours.
 //!
 //! Forces do not change the rank: each copy has 21 coordinates, 22 rows, rank 20, and the same

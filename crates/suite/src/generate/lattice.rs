@@ -1,21 +1,21 @@
-//! A square lattice of N × N cells hangs from a corner. It has a rod for each side, pinned at the
-//! nodes, and braces along the diagonals of cells in blocks.
+//! A square lattice of N × N cells is suspended from a corner. Each side is a rod that is pinned at
+//! the nodes. In blocks of cells, braces are along the diagonals.
 //!
 //! Without braces, opposite sides of each cell remain parallel. Therefore every column of cells has
 //! one angle, every row of cells has another angle, and these 2·N angles are the degrees of
-//! freedom. A brace makes the angle of its column equal to that of its row (Bolker and Crapo,
+//! freedom. A brace makes the angle of its column equal to the angle of its row (Bolker and Crapo,
 //! Bracing rectangular frameworks I, SIAM J. Appl. Math. 36, 1979, doi 10.1137/0136036: braces are
 //! edges between rows and columns). Each braced block of 2 × 2 cells has four braces between two
-//! rows and two columns: three of them make four angles equal, and the fourth is redundant.
+//! rows and two columns: three braces make four angles equal, and the fourth brace is redundant.
 //! Therefore a lattice with k braced blocks has `2·N − 3·k` degrees of freedom and a redundancy of
 //! k.
 //!
 //! Without any external load, the braces of a block can have tensions in the ratio `1, −1, −1, 1`
 //! (times √2). On each line of rods, the sum of the brace forces along this line is then zero.
 //! Therefore the sides of the block balance these forces, and rods outside the block have no load.
-//! The force in a pin between two rods of a node is the sum of the tensions of the rods before this
-//! pin in the list of the node. Each component of this sum is an integer, which [`Lattice::free`]
-//! computes without rounding.
+//! The pins of a node connect its rods in the order of a list. The force in a pin is the sum of the
+//! tensions of the rods before this pin in the list. Each component of this sum is an integer,
+//! which [`Lattice::free`] computes without rounding.
 
 use std::io;
 
@@ -64,7 +64,7 @@ impl Rod {
         }
     }
 
-    /// Number of columns and rows from its start to its end.
+    /// Number of columns and rows from the start to the end of the rod.
     fn step(self) -> [usize; 2] {
         match self {
             Self::Across(_) => [1, 0],
@@ -185,8 +185,7 @@ impl Lattice {
 impl Family for Lattice {
     fn answer(&self) -> Answer {
         let (rods, nodes) = (self.n_rods(), (self.n + 1) * (self.n + 1));
-        // The number of pins of a node is its number of rods minus one, and the hook is one more
-        // joint.
+        // A node has one pin less than it has rods, and the hook is one more joint.
         let joints = 2 * rods - nodes + 1;
         Answer::new(rods, joints, 0, 2 * joints, self.braced.chosen)
     }

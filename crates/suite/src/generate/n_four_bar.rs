@@ -1,10 +1,10 @@
-//! The N-four-bar has N + 1 unit uprights on the ground and N unit rods between their tops; all
-//! loops are parallelograms. At the initial state the uprights are vertical, and their tops move at
-//! 1 m/s.
+//! The N-four-bar has N + 1 unit uprights on the ground and N unit rods between the tops of the
+//! uprights. All loops are parallelograms. At the initial state, the uprights are vertical, and the
+//! tops move at 1 m/s.
 //!
-//! All uprights have the same angle θ from the upward vertical, with the equation of motion
-//! `[(N + 1)/3 + N]·θ̈ = [(N + 1)/2 + N]·g·sin θ` for rods of 1 kg and 1 m. No row is redundant
-//! while the uprights are not horizontal.
+//! All uprights have the same angle θ from the upward vertical. For rods of 1 kg and 1 m, the
+//! equation of motion is `[(N + 1)/3 + N]·θ̈ = [(N + 1)/2 + N]·g·sin θ`. No row is redundant unless
+//! the uprights are horizontal.
 //!
 //! Source: the benchmark A02 of the IFToMM/LIM library, for N = 2.
 

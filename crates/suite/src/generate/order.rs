@@ -22,14 +22,14 @@ const NAMES: f64 = 3.0;
 pub enum Kind {
     /// Loops of unit rods in a row, with one degree of freedom.
     NFourBar,
-    /// A chain of parallelogram cells, each mounted on the coupler of the previous one. Cells with
-    /// a third crank are redundant.
+    /// A chain of parallelogram cells. Each cell is mounted on the coupler of the previous cell.
+    /// Cells with a third crank are redundant.
     Parallelograms,
-    /// A square lattice of rods that hangs from a corner and has braces in some of its cells.
+    /// A square lattice of rods that is suspended from a corner. Some cells have braces.
     Lattice,
     /// Copies of the robot with its trolley in a row.
     Fleet,
-    /// Random rods, slides and loops, some of them doubled.
+    /// Random rods, slides and loops. Some of them have additional, redundant joints or cranks.
     Random,
 }
 
@@ -67,8 +67,8 @@ impl Kind {
         }
     }
 
-    /// Returns the fraction of the cells that are redundant by default; `None` if there is no
-    /// choice.
+    /// Returns the default fraction of the cells that are redundant. Returns `None` if the family
+    /// has no such option.
     fn share(self) -> Option<f64> {
         match self {
             Self::NFourBar | Self::Fleet => None,
@@ -102,7 +102,7 @@ impl Kind {
         }
     }
 
-    /// The factor by which the number of bodies and joints grows from size `a` to size `b`.
+    /// Returns the factor by which the number of bodies and joints grows from size `a` to size `b`.
     fn growth(self, a: usize, b: usize) -> f64 {
         let ratio = b as f64 / a as f64;
         match self {
@@ -132,7 +132,7 @@ pub struct Order {
     pub kind: Kind,
     /// Size: number of loops, cells, cells along each side, robots, modules.
     pub n: usize,
-    /// Seed of the random choices, 1 if none is given.
+    /// Seed of the random choices. If no seed is given, the seed is 1.
     pub seed: Option<u64>,
     /// Fraction of the cells that are redundant, 0 to 1.
     pub redundant: Option<f64>,

@@ -1,13 +1,13 @@
 //! A chain of parallelogram cells. The cranks of each cell are mounted on the coupler of the
-//! previous cell, and the first cranks on the ground.
+//! previous cell. The cranks of the first cell are mounted on the ground.
 //!
 //! A cell with two cranks has 9 coordinates and 8 independent rows: its coupler moves on a circle
 //! and does not rotate. A third crank adds three coordinates and four rows, and does not change the
 //! motion of the coupler: 11 of the 12 rows are independent. Without any external load, the three
 //! parallel cranks of a cell can have axial forces in the ratio 1 : −2 : 1. The resultant force and
 //! torque of these axial forces on both couplers are zero, so the rest of the chain is not loaded.
-//! Therefore each cell with three cranks has a redundancy of one, which involves only the force
-//! components along the cranks in the six revolute joints of the cell. The force components
+//! Therefore each cell with three cranks has a redundancy of one. This redundancy involves only the
+//! force components along the cranks in the six revolute joints of the cell. The force components
 //! perpendicular to the cranks follow from the accelerations of the cranks.
 
 use std::io;
@@ -40,10 +40,12 @@ pub(super) struct Parallelograms {
 struct Cell {
     number: usize,
     n_cranks: usize,
-    /// Direction of the cranks, from the lower to the upper end if they are not horizontal.
+    /// Direction of the cranks. For cranks that are not horizontal, it points from the lower end to
+    /// the upper end.
     direction: [f64; 2],
     length: f64,
-    /// Centre of the coupler below; for the first cell, the reference point on the ground.
+    /// Centre of the coupler below the cell. For the first cell, this is the reference point on the
+    /// ground.
     base: [f64; 2],
     /// Height of the pivots above this centre.
     rise: f64,

@@ -1,4 +1,5 @@
-//! Random modules, each on a body of an earlier module or on the ground, with known redundancy.
+//! Random modules with known redundancy. Each module is mounted on a body of an earlier module or
+//! on the ground.
 //!
 //! A module adds bodies and joints to one existing body, its base. The joints constrain the bodies
 //! of the module relative to the base. The rows are invariant under rigid motions of module and

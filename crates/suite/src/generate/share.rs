@@ -22,7 +22,7 @@ impl Share {
         }
     }
 
-    /// Whether a cell is selected. For a fraction of two thirds the sequence is yes, yes, no, yes,
+    /// Whether a cell is selected. For a fraction of two thirds, the sequence is yes, yes, no, yes,
     /// yes, no, …
     pub(super) fn has(self, cell: usize) -> bool {
         self.before(cell + 1) > self.before(cell)

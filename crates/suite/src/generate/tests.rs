@@ -50,7 +50,8 @@ fn names_occur_once_and_bodies_exist() {
         let scene = text(&order);
         let list: Vec<&str> = texts(&scene, "name").collect();
         let names: BTreeSet<&str> = list.iter().copied().collect();
-        // The format allows a body and a joint with the same name, but no generated scene has them.
+        // The format allows a body and a joint with the same name, but in generated scenes all
+        // these names differ.
         assert_eq!(list.len(), names.len(), "{kind:?}");
         for body in texts(&scene, "bodies").chain(texts(&scene, "body")) {
             assert!(body == "ground" || names.contains(body), "{kind:?}: {body}");

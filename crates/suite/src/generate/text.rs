@@ -20,8 +20,8 @@ pub(super) struct BodyText {
 }
 
 impl BodyText {
-    /// Returns a thin uniform rod at rest from one point to another, with inertia m·L²/12 and the
-    /// x-axis along the rod.
+    /// Returns a thin uniform rod at rest between two points. Its inertia is m·L²/12, and its
+    /// x-axis is along the rod.
     pub(super) fn rod(mass: f64, from: [f64; 2], to: [f64; 2]) -> Self {
         let [x, y] = [to[0] - from[0], to[1] - from[1]];
         Self {
@@ -62,7 +62,7 @@ impl<'w> SceneText<'w> {
         )
     }
 
-    /// Writes a body; zeros that are the default of the format are omitted.
+    /// Writes a body. Zeros that are the default of the format are omitted.
     pub(super) fn body(&mut self, name: impl Display, body: &BodyText) -> io::Result<()> {
         let BodyText {
             mass,
