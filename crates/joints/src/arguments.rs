@@ -8,24 +8,26 @@ use crate::plane::Line;
 use crate::spec::{Parameter, Shape};
 use crate::{plane, space3};
 
-/// One value; values are in the order of the parameters of the definition.
+/// One value. Values are in the order of the parameters of the definition.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Argument {
     /// A point in the plane, or a vector that is converted to a direction.
     Pair([f64; 2]),
     /// A point in space, or a vector that is converted to a direction.
     Triple([f64; 3]),
-    /// A vector along an axis in space, and a vector perpendicular to the axis, if it is needed.
+    /// A vector along an axis in space, and a vector perpendicular to the axis, if such a vector is
+    /// needed.
     Axis([f64; 3], Option<[f64; 3]>),
     /// A point and a vector in space.
     Triples([[f64; 3]; 2]),
-    /// Axes in space, for example those of another body.
+    /// Axes in space, for example the axes of another body.
     Axes(space3::Axes),
     /// Two points.
     Pairs([[f64; 2]; 2]),
-    /// One or more numbers, as many as the parameter has.
+    /// All numbers of a parameter, at least one number.
     Numbers(Vec<f64>),
-    /// No value: the parameter has a default, or is a function of time, which is passed separately.
+    /// No value. The parameter has a default, or it is a function of time. Functions of time are
+    /// passed separately.
     Absent,
 }
 
@@ -75,7 +77,7 @@ pub enum ArgumentError {
         /// The vector for the direction.
         vector: Vec<f64>,
     },
-    /// The direction that should be perpendicular to an axis is parallel to it.
+    /// The direction that should be perpendicular to an axis is parallel to the axis.
     NotAcross {
         /// Name of the parameter.
         parameter: &'static str,
@@ -254,7 +256,7 @@ impl<'a> Reader<'a> {
     ///
     /// # Errors
     /// Returns an error if the value is missing, has a wrong shape, is not finite or has length
-    /// zero, or if the direction perpendicular to the axis is parallel to it.
+    /// zero, or if the direction that should be perpendicular to the axis is parallel to the axis.
     pub fn axes(&mut self) -> Result<space3::Axes, ArgumentError> {
         let (parameter, argument) = self.take();
         let (axis, cross) = match argument {
@@ -302,8 +304,8 @@ impl<'a> Reader<'a> {
     /// Reads a line of the ground.
     ///
     /// # Errors
-    /// Returns an error if the value is missing, has a wrong shape or is not finite, or if its
-    /// points coincide.
+    /// Returns an error if the value is missing, has a wrong shape or is not finite, or if the
+    /// points of the line coincide.
     pub fn line(&mut self) -> Result<Line, ArgumentError> {
         let (parameter, argument) = self.take();
         let Argument::Pairs([a, b]) = argument else {
@@ -318,7 +320,7 @@ impl<'a> Reader<'a> {
     ///
     /// # Errors
     /// Returns an error if the value is missing, has a wrong count, is not finite, or is negative
-    /// although its parameter must not be negative.
+    /// although the parameter must not be negative.
     pub fn numbers<const N: usize>(&mut self) -> Result<[f64; N], ArgumentError> {
         let (parameter, argument) = self.take();
         let Argument::Numbers(values) = argument else {
@@ -362,7 +364,7 @@ fn no_direction(parameter: &'static Parameter, vector: &[f64]) -> ArgumentError 
     }
 }
 
-/// Returns the error for a value with a wrong shape; `dim` is the number of components of a vector.
+/// Returns the error for a value with a wrong shape. `dim` is the number of components of a vector.
 fn mismatch(parameter: &'static Parameter, argument: &Argument, dim: usize) -> ArgumentError {
     match argument {
         Argument::Absent => ArgumentError::Missing {
@@ -388,12 +390,12 @@ fn usable(parameter: &'static Parameter, values: &[f64]) -> Result<(), ArgumentE
 
 /// The largest permitted magnitude of a value in the description of a mechanism, in its SI unit.
 /// Products of five values up to this limit are finite. Above this limit, products in rows and in
-/// bounds of their rounding errors overflow; wrong verdicts were observed from 1e100 on. For
-/// comparison, the observable universe has 1e27 m and 1e53 kg.
+/// bounds on rounding errors of rows overflow. Wrong verdicts were observed from 1e100 upwards. For
+/// comparison, the observable universe has a size of 1e27 m and a mass of 1e53 kg.
 pub const LARGEST: f64 = 1e60;
 
-/// Returns whether a value is permitted in the description of a mechanism: it is finite and not
-/// above [`LARGEST`].
+/// Returns whether a value is permitted in the description of a mechanism. A permitted value is
+/// finite and not above [`LARGEST`].
 #[must_use]
 pub fn is_usable(x: f64) -> bool {
     x.abs() <= LARGEST

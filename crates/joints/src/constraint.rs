@@ -2,9 +2,9 @@
 //!
 //! A block is a matrix with one row for each constraint row. It has one column for each velocity
 //! component of each body: x, y, rotation in the plane; x, y, z and three rotations in space. The
-//! slices `x` and `v` contain the poses and twists of the bodies in the order of the definition,
-//! `f` the values and derivatives `[f, ḟ, f̈]` of the functions of time. Output slices are
-//! overwritten. Sparse outputs follow the pattern of the [`ConstraintSpec`].
+//! slices `x` and `v` contain the poses and twists of the bodies in the order of the definition.
+//! The slice `f` contains the values and derivatives `[f, ḟ, f̈]` of the functions of time. Output
+//! slices are overwritten. Sparse outputs follow the pattern of the [`ConstraintSpec`].
 
 use crate::arguments::{Argument, ArgumentError};
 use crate::element::{Element, Reaction};
@@ -21,7 +21,7 @@ pub trait Constraint<S: Space = Plane>: ConstraintKernels<S> + Clone + 'static {
     /// The specification of the definition.
     const SPEC: ConstraintSpec;
 
-    /// Creates the constraint with these values of its parameters; initial values are zero until
+    /// Creates the constraint with these values of the parameters. Initial values are zero until
     /// [`crate::Definition::initialise`] is called.
     ///
     /// # Errors
@@ -38,19 +38,20 @@ pub trait Constraint<S: Space = Plane>: ConstraintKernels<S> + Clone + 'static {
     fn reaction<T: Real>(&self) -> &dyn Reaction<T, S>;
 }
 
-/// All kernels of a constraint as a trait object: rows and reaction in `f64`, their derivatives,
-/// and the rows in any other number type.
+/// All kernels of a constraint as a trait object: rows and reaction in `f64`, the derivatives of
+/// both, and the rows in any other number type.
 ///
 /// The derivatives with respect to poses and velocities are closed forms. Definitions with long
 /// closed forms use the dual numbers of [`crate::slopes`] instead.
 pub trait ConstraintKernels<S: Space = Plane>: Element<f64, S> + Reaction<f64, S> {
-    /// Returns the rows for all constraints of this kind as programs, which run in any number type.
+    /// Returns the rows for all constraints of this kind as programs. The programs run in any
+    /// number type.
     fn programs(&self) -> &Programs;
 
     /// Appends the values of this constraint that the programs need to `out`.
     fn stored(&self, out: &mut Vec<f64>);
 
-    /// Calls `entry` for each nonzero derivative of these values with respect to the values of
+    /// Calls `entry` for each nonzero derivative of the stored values with respect to the values of
     /// [`crate::Definition::data`]. The arguments of `entry` are the index of the stored value, the
     /// index of the datum in `data`, and the derivative of the stored value with respect to the
     /// datum.
@@ -102,7 +103,7 @@ pub trait ConstraintKernels<S: Space = Plane>: Element<f64, S> + Reaction<f64, S
     fn boxed(&self) -> Box<dyn ConstraintKernels<S>>;
 }
 
-/// Returns the programs of a constraint together with its values.
+/// Returns the programs of a constraint together with the stored values of the constraint.
 fn of_kind<S: Space>(kernels: &(impl ConstraintKernels<S> + ?Sized)) -> OfKind<'_> {
     let mut stored = Vec::new();
     kernels.stored(&mut stored);

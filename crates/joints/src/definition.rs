@@ -1,4 +1,4 @@
-//! What constraints and forces have in common as trait objects: the values that they store.
+//! The common interface of constraints and forces as trait objects: the values that they store.
 
 use crate::space::{Plane, Space};
 
@@ -13,9 +13,10 @@ pub trait Definition<S: Space = Plane>: Send + Sync {
         true
     }
 
-    /// Returns the cosine, the sine and the rate (rad/s) of unwrapped angle `k` since the start.
-    /// This is an angle whose revolutions the kernels need, or the angle in space that a drive
-    /// prescribes. If there is no such angle, the result is that of a constant angle of zero.
+    /// Returns the cosine, the sine and the rate (rad/s) of the change of angle `k` since the
+    /// start. Angle `k` is an angle whose revolutions the kernels need, or the angle in space that
+    /// a drive prescribes. If there is no such angle, the function returns the result for a
+    /// constant angle of zero.
     fn turned(&self, _k: usize, _x: &[S::Pose<f64>], _v: &[S::Twist<f64>]) -> [f64; 3] {
         [1.0, 0.0, 0.0]
     }
@@ -27,9 +28,9 @@ pub trait Definition<S: Space = Plane>: Send + Sync {
         Vec::new()
     }
 
-    /// Returns the axes u, v and w of a joint in space, fixed in its first body, in the frame of
-    /// this body; w is along the first axis or direction in this body. Returns `None` if the joint
-    /// has no axis.
+    /// Returns the axes u, v and w of a joint in space. The axes are fixed in the first body of the
+    /// joint and given in the frame of this body. w is along the first axis or direction in this
+    /// body. Returns `None` if the joint has no axis.
     fn axes(&self) -> Option<[[f64; 3]; 3]> {
         None
     }
@@ -41,11 +42,11 @@ pub trait Definition<S: Space = Plane>: Send + Sync {
         None
     }
 
-    /// Writes the values that a constraint stores, in the order of [`crate::ConstraintSpec::data`];
-    /// forces write nothing.
+    /// Writes the values that a constraint stores, in the order of [`crate::ConstraintSpec::data`].
+    /// Forces write nothing.
     fn data(&self, _out: &mut [f64]) {}
 
-    /// Sets the values that [`Definition::data`] returns; directions are not normalised. Values
+    /// Sets the values that [`Definition::data`] returns. Directions are not normalised. Values
     /// that [`Definition::initialise`] computes only from other stored values are computed again.
     fn set_data(&mut self, _numbers: &[f64]) {}
 }

@@ -1,4 +1,4 @@
-//! The rows of a constraint and its reaction; these kernels are compiled in several number types.
+//! The rows and the reaction of a constraint. These kernels are compiled in several number types.
 //! [`crate::constraint`] describes the slices.
 
 use crate::definition::Definition;
@@ -14,7 +14,7 @@ pub trait Element<T: Scalar = f64, S: Space = Plane>: Definition<S> {
     /// Writes `Φ`, one value for each holonomic row.
     fn phi(&self, x: &[S::Pose<T>], f: &[[T; 3]], out: &mut [T]);
 
-    /// Writes the entries of the block of C that depend only on parameters; the other entries do
+    /// Writes the entries of the block of C that depend only on parameters. The other entries do
     /// not change.
     fn c_constant(&self, _out: &mut [T]) {}
 
@@ -22,13 +22,13 @@ pub trait Element<T: Scalar = f64, S: Space = Plane>: Definition<S> {
     fn c(&self, x: &[S::Pose<T>], f: &[[T; 3]], out: &mut [T]);
 
     /// Writes `b = −Φt` or `−ψ`, one value for each row. Scleronomic constraints write nothing,
-    /// because their b is zero.
+    /// because for these constraints b is zero.
     fn b(&self, _x: &[S::Pose<T>], _f: &[[T; 3]], _out: &mut [T]) {}
 
     /// Writes `Γ` in `C·a = Γ`, one value for each row.
     fn gamma(&self, x: &[S::Pose<T>], v: &[S::Twist<T>], f: &[[T; 3]], out: &mut [T]);
 
-    /// Writes the coefficients of the named component of the reaction, `Σ out·λ`; writes nothing if
+    /// Writes the coefficients of the named component of the reaction, `Σ out·λ`. Writes nothing if
     /// the definition names no component.
     fn component(&self, _x: &[S::Pose<T>], _f: &[[T; 3]], _out: &mut [T]) {}
 }

@@ -1,7 +1,7 @@
 //! Forces: the traits that a definition implements.
 //!
-//! Each force consists of force laws of relative coordinates, `Q = Σ law·∂coordinate/∂x`, so that
-//! internal forces always balance. [`crate::constraint`] describes the slices.
+//! Each force is a sum over force laws of relative coordinates, `Q = Σ law·∂coordinate/∂x`.
+//! Therefore internal forces always balance. [`crate::constraint`] describes the slices.
 
 use crate::arguments::{Argument, ArgumentError};
 use crate::definition::Definition;
@@ -15,7 +15,7 @@ pub trait Force<S: Space = Plane>: ForceElement<f64, S> + Clone + 'static {
     /// The specification of the definition.
     const SPEC: ForceSpec;
 
-    /// Creates the force with these values of its parameters; initial values are zero until
+    /// Creates the force with these values of the parameters. Initial values are zero until
     /// [`Definition::initialise`] is called.
     ///
     /// # Errors

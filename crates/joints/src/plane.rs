@@ -6,8 +6,8 @@ use crate::ring::Ring;
 /// Number of velocity components of a planar body: x, y, rotation.
 pub const N_DOF: usize = 3;
 
-/// Position and rotation of a body: the origin of the body frame, and its angle with cosine and
-/// sine.
+/// Position and rotation of a body: the origin and the angle of the body frame, and the cosine and
+/// sine of this angle.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Pose<T = f64> {
     /// Ground coordinate x of the origin of the body frame (m).
@@ -32,7 +32,7 @@ impl Pose<f64> {
         sin: 0.0,
     };
 
-    /// Returns a pose with this position and angle; its cosine and sine are computed.
+    /// Returns a pose with this position and angle. Cosine and sine are computed.
     #[must_use]
     pub fn new(x: f64, y: f64, angle: f64) -> Self {
         let (sin, cos) = angle.sin_cos();
@@ -107,7 +107,7 @@ impl Direction {
     /// The direction of the y-axis of the frame.
     pub const Y: Self = Self([0.0, 1.0]);
 
-    /// Returns the direction of `v`; `None` if `v` is zero or not finite.
+    /// Returns the direction of `v`. Returns `None` if `v` is zero or not finite.
     ///
     /// ```
     /// use pfaff_joints::Direction;
@@ -126,9 +126,9 @@ impl Direction {
         Some(Self([v[0] / length, v[1] / length]))
     }
 
-    /// Creates a direction from the components that `Definition::data` returns, possibly with small
-    /// changes, without normalisation. A derivative with respect to one component needs a vector
-    /// outside the unit circle. For generated code.
+    /// Creates a direction from the components that `Definition::data` returns, which may have
+    /// small changes. The direction is not normalised, because a derivative with respect to one
+    /// component needs a vector outside the unit circle. This function is for generated code.
     #[doc(hidden)]
     #[must_use]
     pub fn from_data(xy: [f64; 2]) -> Self {
@@ -150,7 +150,8 @@ pub struct Line {
 }
 
 impl Line {
-    /// Returns the line through two points; `None` if they coincide or are not finite.
+    /// Returns the line through two points. Returns `None` if the points coincide or are not
+    /// finite.
     #[must_use]
     pub fn new(start: [f64; 2], end: [f64; 2]) -> Option<Self> {
         let along = Direction::new([end[0] - start[0], end[1] - start[1]])?;

@@ -1,5 +1,5 @@
-//! The rows of a constraint as programs, which are lists of additions and multiplications that run
-//! in any number type. The programs are recorded once for each kind of constraint.
+//! The rows of a constraint as programs. A program is a list of additions and multiplications that
+//! runs in any number type. The programs are recorded once for each kind of constraint.
 //!
 //! For the motion, the kernels compiled for `f64` are used. All other calculations need the rows
 //! only once for each configuration: in double-double precision, with the sizes of their terms,
@@ -20,8 +20,8 @@ fn place_of(k: usize) -> u32 {
     u32::try_from(k).unwrap_or(u32::MAX)
 }
 
-/// One operation on values with indices; the arguments come first, then the result of each
-/// operation.
+/// One operation. Its operands are indices of values: first the arguments of the program, then the
+/// results of the operations.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Step {
     Number(f64),
@@ -36,7 +36,7 @@ enum Step {
 struct Program {
     given: usize,
     steps: Vec<Step>,
-    /// Entries of the output that the program writes, each with the index of the value.
+    /// Entries of the output that the program writes, each with the index of its value.
     written: Vec<(usize, u32)>,
 }
 
@@ -157,8 +157,8 @@ impl Program {
 /// The programs of one kind of constraint.
 #[derive(Clone, Debug)]
 pub struct Programs {
-    /// Number of functions of time (values with derivatives) that the programs need; more may be
-    /// passed.
+    /// Number of functions of time (values with derivatives) that the programs need. The caller may
+    /// pass more functions.
     jets: usize,
     phi: Program,
     c_constant: Program,
@@ -245,7 +245,7 @@ impl<T: Ring> Rows<'_, T> {
         self.run::<S>(&self.programs.phi, (x, f, &[]), out);
     }
 
-    /// Computes the entries of C that depend only on parameters; the other entries do not change.
+    /// Computes the entries of C that depend only on parameters. The other entries do not change.
     pub fn c_constant<S: Space>(self, x: &[S::Pose<T>], f: &[[T; 3]], out: &mut [T]) {
         self.run::<S>(&self.programs.c_constant, (x, f, &[]), out);
     }
@@ -255,7 +255,7 @@ impl<T: Ring> Rows<'_, T> {
         self.run::<S>(&self.programs.c, (x, f, &[]), out);
     }
 
-    /// Computes b; scleronomic constraints write nothing.
+    /// Computes b. Scleronomic constraints write nothing.
     pub fn b<S: Space>(self, x: &[S::Pose<T>], f: &[[T; 3]], out: &mut [T]) {
         self.run::<S>(&self.programs.b, (x, f, &[]), out);
     }
@@ -265,7 +265,7 @@ impl<T: Ring> Rows<'_, T> {
         self.run::<S>(&self.programs.gamma, (x, f, v), out);
     }
 
-    /// Computes the coefficients of the named component; writes nothing if the definition names no
+    /// Computes the coefficients of the named component. Writes nothing if the definition names no
     /// component.
     pub fn component<S: Space>(self, x: &[S::Pose<T>], f: &[[T; 3]], out: &mut [T]) {
         self.run::<S>(&self.programs.component, (x, f, &[]), out);

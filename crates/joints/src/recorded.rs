@@ -1,5 +1,5 @@
 //! A number type that records its operations. A kernel runs once with this type and writes its
-//! operations, with the values of its parameters, to an operation list (`tape`). Programs for one
+//! operations and the values of its parameters to an operation list (`tape`). Programs for one
 //! mechanism are generated from this list. This module neither differentiates nor simplifies the
 //! operations.
 //!
@@ -14,7 +14,7 @@ use crate::ring::{Real, Scalar};
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct RecordedNumber(usize);
 
-/// One operation of an operation list; operands come before the operations that use them.
+/// One operation of an operation list. Operands come before the operations that use them.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Operation {
     /// A constant.
@@ -43,8 +43,8 @@ thread_local! {
     static TAPE: RefCell<Vec<Operation>> = const { RefCell::new(Vec::new()) };
 }
 
-/// Runs `f` and returns the operations on all [`RecordedNumber`]s in it, in the order of execution.
-/// Numbers of one recording are not valid in another recording.
+/// Runs `f` and returns the operations on all [`RecordedNumber`]s in `f`, in the order of
+/// execution. Numbers of one recording are not valid in another recording.
 ///
 /// ```
 /// use pfaff_joints::recorded::{Operation, RecordedNumber, record};

@@ -5,7 +5,7 @@ use std::ops::{Add, Div, Mul, Neg, Sub};
 
 use rotation::angle_over_sine;
 
-/// Operations that constraint kernels need; these kernels are polynomials.
+/// Operations that constraint kernels need. These kernels are polynomials.
 pub trait Ring:
     Copy + From<f64> + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Neg<Output = Self>
 {
@@ -18,8 +18,8 @@ impl<T> Ring for T where
 
 /// A number type in which the kernels for the rows of constraints are compiled.
 pub trait Scalar: Ring {
-    /// Returns a value stored by a constraint, in the form in which its rows read it; `_place` is
-    /// the index in [`crate::ConstraintKernels::stored`].
+    /// Returns a value stored by a constraint, in the form in which the rows of the constraint read
+    /// it. `_place` is the index in [`crate::ConstraintKernels::stored`].
     #[must_use]
     fn stored(value: f64, _place: usize) -> Self {
         Self::from(value)
@@ -58,7 +58,7 @@ impl Real for f64 {
     }
 }
 
-/// The size of the terms of a polynomial: every operation is applied to absolute values, and
+/// The size of the terms of a polynomial. Every operation is applied to absolute values, and
 /// differences become sums. For each result, a kernel with this number type returns a bound on the
 /// terms that cancel in the result. The product of this bound and the relative error of the data is
 /// a bound on the error of the result.

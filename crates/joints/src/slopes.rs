@@ -72,11 +72,11 @@ impl Neg for Dual {
     }
 }
 
-/// A kind of constraint, and the values of one constraint, as its programs need them.
+/// A kind of constraint, and the values of one constraint in the form that the programs need.
 pub(crate) struct OfKind<'k> {
     pub(crate) spec: &'static ConstraintSpec,
     pub(crate) programs: &'k Programs,
-    /// The values stored by the constraint that the programs need.
+    /// The stored values of the constraint that the programs need.
     pub(crate) stored: Vec<f64>,
 }
 
@@ -84,7 +84,7 @@ pub(crate) struct OfKind<'k> {
 #[derive(Clone, Copy)]
 pub(crate) struct At<'a, S: Space> {
     pub(crate) x: &'a [S::Pose<f64>],
-    /// The twists; Γ is computed only if they are given.
+    /// The twists. Γ is computed only if the twists are given.
     pub(crate) v: Option<&'a [S::Twist<f64>]>,
     pub(crate) f: &'a [[f64; 3]],
 }
@@ -270,9 +270,10 @@ pub enum SlopedOutputs<'a, S: Space> {
     All(&'a [S::Twist<f64>]),
 }
 
-/// Derivatives of Φ, C and Γ with respect to each value p of [`crate::Definition::data`]. Values
-/// that are computed from other stored values are differentiated as functions of them. Stored
-/// initial values are constant in these derivatives, because they are separate values.
+/// Derivatives of Φ, C and Γ with respect to each value p of [`crate::Definition::data`]. A value
+/// that is computed from other stored values is differentiated as a function of these stored
+/// values. Stored initial values are constant in these derivatives, because they are separate
+/// values.
 ///
 /// ```
 /// use pfaff_joints::generated::Distance;
@@ -292,12 +293,13 @@ pub enum SlopedOutputs<'a, S: Space> {
 /// ```
 #[derive(Clone, Debug)]
 pub struct Slopes {
-    /// Derivatives of the holonomic rows of Φ with respect to each value; empty if they were not
-    /// requested, like the other fields.
+    /// Derivatives of the holonomic rows of Φ with respect to each value. As in the other fields,
+    /// the list is empty if these derivatives were not requested.
     phi: Vec<f64>,
     /// Derivatives of the entries of C with respect to each value.
     c: Vec<f64>,
-    /// Derivatives of the rows of Γ with respect to each value; empty without velocities.
+    /// Derivatives of the rows of Γ with respect to each value. The list is empty without
+    /// velocities.
     gamma: Vec<f64>,
     entries: &'static [Entry],
     sizes: [usize; 3],

@@ -1,7 +1,7 @@
 //! The two spaces in which bodies move, as types that define the types of poses, twists and
 //! vectors.
 //!
-//! Kernels, their traits and their tests are generic over the space; each definition belongs to one
+//! The traits and the tests of kernels are generic over the space. Each definition belongs to one
 //! space.
 
 use std::fmt::Debug;
@@ -30,8 +30,8 @@ pub trait Space: Copy + Debug + Send + Sync + 'static {
     /// Appends the values of a pose to `out`.
     fn numbers_of_pose<T: Ring>(pose: &Self::Pose<T>, out: &mut Vec<T>);
 
-    /// Writes the rates of the values of a pose if one velocity component of the body is 1 m/s or 1
-    /// rad/s.
+    /// Writes the rates of the values of a pose for the case that one velocity component of the
+    /// body is 1 m/s or 1 rad/s and all other components are zero.
     fn rates_of_pose(pose: &Self::Pose<f64>, dof: usize, out: &mut [f64]);
 
     /// Returns the twist with these velocity components.

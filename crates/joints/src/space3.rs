@@ -18,7 +18,7 @@ pub const N_DOF: usize = 6;
 pub struct Pose<T = f64> {
     /// Ground components of the position of the origin of the body frame (m).
     pub r: [T; 3],
-    /// R, by rows; column k is the k-th axis of the body frame in ground components.
+    /// R, by rows. Column k is the k-th axis of the body frame in ground components.
     pub rot: [[T; 3]; 3],
 }
 
@@ -29,8 +29,8 @@ impl Pose<f64> {
         rot: [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]],
     };
 
-    /// Returns the pose with this position and this quaternion (w, x, y, z), which may have any
-    /// length except zero.
+    /// Returns the pose with this position and this quaternion (w, x, y, z). The quaternion may
+    /// have any length except zero.
     ///
     /// ```
     /// use pfaff_joints::space3::Pose;
@@ -130,7 +130,7 @@ impl Direction {
     /// The direction of the z-axis of the frame.
     pub const Z: Self = Self([0.0, 0.0, 1.0]);
 
-    /// Returns the direction of `v`; `None` if `v` is zero or not finite.
+    /// Returns the direction of `v`. Returns `None` if `v` is zero or not finite.
     #[must_use]
     pub fn new(v: impl Into<[f64; 3]>) -> Option<Self> {
         let v = v.into();
@@ -144,9 +144,9 @@ impl Direction {
         Some(Self(v.map(|x| x / length)))
     }
 
-    /// Creates a direction from the components that `Definition::data` returns, possibly with small
-    /// changes, without normalisation. A derivative with respect to one component needs a vector
-    /// outside the unit sphere. For generated code.
+    /// Creates a direction from the components that `Definition::data` returns, which may have
+    /// small changes. The direction is not normalised, because a derivative with respect to one
+    /// component needs a vector outside the unit sphere. This function is for generated code.
     #[doc(hidden)]
     #[must_use]
     pub fn from_data(xyz: [f64; 3]) -> Self {
@@ -160,17 +160,17 @@ impl Direction {
     }
 }
 
-/// Three orthonormal directions u, v, w fixed in a body, right-handed; w is the axis of a joint, u
-/// and v are perpendicular to it.
+/// Three orthonormal directions u, v and w that are fixed in a body and right-handed. w is the axis
+/// of a joint, and u and v are perpendicular to this axis.
 ///
-/// As data they are one quantity, whose only possible change is a rotation. The three values of
-/// this quantity are the components of a rotation vector in the body frame (rad); they are zero for
-/// the stored axes.
+/// As data, the three directions are one quantity. The only possible change of this quantity is a
+/// rotation. Its three values are the components of a rotation vector in the body frame (rad); they
+/// are zero for the stored axes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Axes([[f64; 3]; 3]);
 
-/// Smallest sine of the angle between an axis and the direction that should be perpendicular to it;
-/// at 1e-6, the perpendicular directions are accurate to ten digits.
+/// Smallest sine of the angle between an axis and the direction that should be perpendicular to the
+/// axis. At 1e-6, the perpendicular directions are accurate to ten digits.
 const LEAST_ANGLE: f64 = 1e-6;
 
 impl Axes {
@@ -178,9 +178,9 @@ impl Axes {
     pub const FRAME: Self = Self([Direction::X.0, Direction::Y.0, Direction::Z.0]);
 
     /// Returns the axes with w along `axis`, and with u along the part of `across` that is
-    /// perpendicular to w. Without `across`, u is computed from the coordinate axis with the
-    /// smallest component along w; it is made orthogonal to w. Returns `None` if `axis` has length
-    /// zero, or if the sine of the angle between `across` and the axis is below 1e-6.
+    /// perpendicular to w. Without `across`, u is the coordinate axis with the smallest component
+    /// along w, made orthogonal to w. Returns `None` if `axis` has length zero, or if the sine of
+    /// the angle between `across` and the axis is below 1e-6.
     ///
     /// ```
     /// use pfaff_joints::space3::Axes;
@@ -204,8 +204,8 @@ impl Axes {
         if dot(across, across).sqrt() < LEAST_ANGLE {
             return None;
         }
-        // The second pass is necessary: the rounding error of the first pass is relative to the
-        // part that it removes.
+        // The second pass is necessary, because the rounding error of the first pass is relative to
+        // the part that the first pass removes.
         let u = Direction::new(across)?.0;
         let along = dot(u, w);
         let u = Direction::new(std::array::from_fn(|k| u[k] - along * w[k]))?.0;
@@ -218,7 +218,7 @@ impl Axes {
         self.0
     }
 
-    /// Returns the same axes in the frame of another body; `map` transforms each direction and must
+    /// Returns the same axes in the frame of another body. `map` transforms each direction and must
     /// be a rotation.
     #[must_use]
     pub fn map(self, map: impl FnMut([f64; 3]) -> [f64; 3]) -> Self {
@@ -226,7 +226,7 @@ impl Axes {
     }
 
     /// Returns the axes after a rotation by this rotation vector, given in the body frame (rad).
-    /// For generated code.
+    /// This function is for generated code.
     #[doc(hidden)]
     #[must_use]
     pub fn turned(self, turn: [f64; 3]) -> Self {
@@ -261,8 +261,8 @@ impl GroundPlane {
         along: Direction::X,
     };
 
-    /// Returns the plane through a point that is perpendicular to a vector; `None` if the vector is
-    /// zero or not finite.
+    /// Returns the plane through a point that is perpendicular to a vector. Returns `None` if the
+    /// vector is zero or not finite.
     #[must_use]
     pub fn new(point: impl Into<[f64; 3]>, normal: impl Into<[f64; 3]>) -> Option<Self> {
         let normal = Direction::new(normal)?;
@@ -298,9 +298,8 @@ impl GroundPlane {
         self.normal
     }
 
-    /// Returns a unit vector in the plane. It is computed from the coordinate axis with the
-    /// smallest component along the normal, made orthogonal to the normal; for the plane z = 0 it
-    /// is x.
+    /// Returns a unit vector in the plane. It is the coordinate axis with the smallest component
+    /// along the normal, made orthogonal to the normal. For the plane z = 0, it is x.
     #[must_use]
     pub fn along(&self) -> Direction {
         self.along

@@ -1,17 +1,18 @@
-//! Specifications of definitions, as constants of the generated code. With them, a scene reader, an
-//! assembler and a report can handle any joint.
+//! Specifications of definitions, as constants of the generated code. With the specifications, a
+//! scene reader, an assembler and a report can process any joint.
 
 use std::fmt;
 use std::ops::Range;
 
-/// What the specifications of constraints and forces have in common.
+/// The common part of the specifications of constraints and forces.
 #[derive(Clone, Copy, Debug)]
 pub struct Spec {
     /// Name of the definition, for example `PinInSlot`.
     pub name: &'static str,
     /// Value of `type` in a scene file, for example `pin-in-slot`.
     pub scene_type: &'static str,
-    /// The key that distinguishes definitions with the same type in scenes, if there are several.
+    /// The key that distinguishes definitions with the same type in scenes, if several definitions
+    /// have this type.
     pub variant: Option<Variant>,
     /// The doc comment of the definition.
     pub doc: &'static str,
@@ -25,18 +26,19 @@ pub struct Spec {
     /// parameter.
     pub points_apart: bool,
     /// Whether the bodies, points and axes of the definition, except the last point, are taken from
-    /// two joints whose names the scene gives. The first two bodies are wheels; each of them turns
-    /// about the axis of one of the two joints on the third body, the carrier. On the carrier, the
-    /// first point and the first axes belong to the first wheel, the second ones to the second
-    /// wheel. The third point is the reference point.
+    /// two joints. The scene gives the names of these joints. The first two bodies are wheels, and
+    /// the third body is the carrier. Each wheel turns on the carrier about the axis of one of the
+    /// two joints. On the carrier, the first point and the first axes belong to the first wheel,
+    /// and the second point and the second axes belong to the second wheel. The third point is the
+    /// reference point.
     pub bearings: bool,
-    /// Requirements for the assembled initial configuration, as texts, in the order of
+    /// Texts of the requirements for the assembled initial configuration, in the order of
     /// `requirement`.
     pub requirements: &'static [&'static str],
 }
 
 impl Spec {
-    /// Returns for each point the index of the body in whose frame it is given.
+    /// Returns, for each point, the index of the body in whose frame the point is given.
     pub fn slots_of_points(&self) -> impl Iterator<Item = usize> + use<> {
         self.parameters.iter().filter_map(|p| match p.shape {
             Shape::Point { slot } => Some(slot),
@@ -44,7 +46,8 @@ impl Spec {
         })
     }
 
-    /// Returns name and unit of the functions of time that the kernels use, in the order of `f`.
+    /// Returns the name and the unit of each function of time that the kernels use, in the order of
+    /// `f`.
     pub fn functions(&self) -> impl Iterator<Item = (&'static str, Unit)> + use<> {
         self.parameters.iter().flat_map(|p| {
             let units = match p.shape {
@@ -74,7 +77,7 @@ pub struct Parameter {
     pub name: &'static str,
     /// Kind of the value.
     pub shape: Shape,
-    /// Whether the parameter may be omitted; its value is then taken from the assembled initial
+    /// Whether the parameter may be omitted. The value is then taken from the assembled initial
     /// configuration.
     pub optional: bool,
     /// Doc comment of the parameter: its purpose in one sentence. Frame and unit follow from the
@@ -94,7 +97,7 @@ impl Parameter {
         }
     }
 
-    /// Creates a parameter that may be omitted; its value is then taken from the assembled initial
+    /// Creates a parameter that may be omitted. The value is then taken from the assembled initial
     /// configuration.
     #[must_use]
     pub const fn optional(name: &'static str, shape: Shape, doc: &'static str) -> Self {
@@ -125,15 +128,15 @@ pub enum Shape {
     Axes {
         /// Index of the body.
         slot: usize,
-        /// Index of another parameter with axes. Unless the parameter is given, its axes are
-        /// parallel to those axes in the described configuration.
+        /// Index of another parameter with axes. If the parameter is not given, its axes are
+        /// parallel to the axes of the other parameter in the described configuration.
         like: Option<usize>,
     },
     /// A straight line of the ground through two points.
     GroundLine,
     /// A plane of the ground: a point, and a vector normal to it.
     GroundPlane,
-    /// Numbers with their units; one number is written without brackets.
+    /// Numbers with their units. A single number is written without brackets.
     Numbers(&'static [Unit]),
     /// Functions of time with the units of their values.
     Functions(&'static [Unit]),
@@ -272,29 +275,31 @@ impl fmt::Display for Unit {
 /// Specification of a constraint definition.
 #[derive(Clone, Copy, Debug)]
 pub struct ConstraintSpec {
-    /// What constraints and forces have in common.
+    /// The common part of a specification.
     pub common: Spec,
     /// Whether the constraint is a joint, or the drive of a joint coordinate.
     pub role: Role,
     /// Rows: `Φ(q, t) = 0`, then `Ψ(q, t)·q̇ + ψ(q, t) = 0`.
     pub rows: &'static [Row],
-    /// Number of holonomic rows; they are the first rows.
+    /// Number of holonomic rows. The holonomic rows come first.
     pub holonomic: usize,
     /// Entries of the block of C that are not identically zero, in the order of the rows.
     pub c: &'static [Entry],
     /// Whether the constraint depends explicitly on time, so that b is not identically zero.
     pub rheonomic: bool,
-    /// Entries (component, row) of the map from multipliers to the wrench on the first body that
-    /// are not identically zero.
+    /// The entries (component, row) that are not identically zero in the map from multipliers to
+    /// the wrench on the first body.
     pub wrench: &'static [[usize; 2]],
     /// A component of the reaction that has a name, in addition to the components of the wrench.
     pub component: Option<&'static str>,
-    /// A note about the meaning of the reaction for reports, without the name of the joint.
+    /// A note for reports about the meaning of the reaction. It does not contain the name of the
+    /// joint.
     pub note: Option<&'static str>,
     /// Joint coordinates that a drive may prescribe.
     pub measures: &'static [Measure],
-    /// Whether the kernels receive the cosine and the sine of the function of time, each with two
-    /// derivatives, in place of the function. This is the case for drives of angles in space.
+    /// Whether the kernels receive the cosine and the sine of the function of time in place of the
+    /// function. Cosine and sine have two derivatives each. This is the case for drives of angles
+    /// in space.
     pub turning: bool,
     /// Number of angles in space that the kernels receive including full revolutions. For each
     /// angle, the kernels receive three values after the functions of time: the angle since the
@@ -308,8 +313,8 @@ pub struct ConstraintSpec {
     pub d_gamma_dv: &'static [[usize; 2]],
     /// Pattern (row, column of the block) of `∂(C·v − b)/∂x`.
     pub d_velocity_dx: &'static [[usize; 2]],
-    /// The values that the constraint stores: parameters, followed by initial values. Each value
-    /// that is not computed from others belongs to exactly one datum.
+    /// The values that the constraint stores: parameters, followed by initial values. A value that
+    /// is not computed from other values belongs to exactly one datum.
     pub data: &'static [Datum],
 }
 
@@ -323,46 +328,47 @@ impl ConstraintSpec {
         }
     }
 
-    /// Returns the number of elements of the argument `f` of the kernels. These are the functions
-    /// of time, of which one may be replaced by its cosine and sine, and three for each unwrapped
-    /// angle.
+    /// Returns the number of elements of the argument `f` of the kernels. There is one element for
+    /// each function of time; the cosine and the sine may replace one function. There are three
+    /// elements for each unwrapped angle.
     #[must_use]
     pub fn n_jets(&self) -> usize {
         self.common.functions().count() + usize::from(self.turning) + 3 * self.turns
     }
 
-    /// Returns whether a joint may be one-sided: its only holonomic row is the gap of a contact.
+    /// Returns whether a joint may be one-sided. This is true if the only holonomic row is the gap
+    /// of a contact.
     #[must_use]
     pub const fn has_gap(&self) -> bool {
         matches!(self.rows, [first, ..] if first.is_gap)
     }
 
-    /// Returns whether the gap is measured from a line: the order of its two points decides on
-    /// which side the gap is positive.
+    /// Returns whether the gap is measured from a line. The order of the two points of the line
+    /// decides on which side the gap is positive.
     #[must_use]
     pub fn is_gap_of_line(&self) -> bool {
         let mut parameters = self.common.parameters.iter();
         self.has_gap() && parameters.any(|p| p.shape == Shape::GroundLine)
     }
 
-    /// Returns whether the joint is a contact with a surface: its gap is measured from the surface
-    /// along the normal that its parameters state, and is positive outside. A line has no such
-    /// normal, and a gap that is zero at every start, as that of a constant distance, has no
-    /// surface.
+    /// Returns whether the joint is a contact with a surface. The gap of such a joint is measured
+    /// from the surface along the normal that the parameters state, and is positive outside. A line
+    /// has no such normal. A gap that is zero at every start, for example the gap of a constant
+    /// distance, has no surface.
     #[must_use]
     pub fn has_surface(&self) -> bool {
         let restricts = matches!(self.rows, [first, ..] if first.restricts_start);
         self.has_gap() && restricts && !self.is_gap_of_line()
     }
 
-    /// Returns whether a contact of this type slips if a force is too large: it has nonholonomic
-    /// rows, and these do not prescribe a motion.
+    /// Returns whether a contact of this type slips if a force is too large. This is true if the
+    /// contact has nonholonomic rows and these rows do not prescribe a motion.
     #[must_use]
     pub const fn can_slip(&self) -> bool {
         self.nonholonomic() > 0 && !self.rheonomic
     }
 
-    /// Returns the number of nonholonomic rows, which come after the holonomic ones.
+    /// Returns the number of nonholonomic rows. They come after the holonomic rows.
     #[must_use]
     pub const fn nonholonomic(&self) -> usize {
         self.rows.len() - self.holonomic
@@ -372,7 +378,7 @@ impl ConstraintSpec {
 /// Values stored by a constraint that belong together: a point, a direction, or a scalar.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Datum {
-    /// Name of the parameter or of the initial value; `name[k]` for one entry of a list.
+    /// Name of the parameter or of the initial value. It is `name[k]` for one entry of a list.
     pub name: &'static str,
     /// Kind of the values.
     pub shape: DatumShape,
@@ -383,7 +389,7 @@ pub struct Datum {
 }
 
 impl Datum {
-    /// Creates the datum with `count` values, the first of which has the index `first`.
+    /// Creates the datum with `count` values. The first value has the index `first`.
     #[must_use]
     pub const fn new(name: &'static str, shape: DatumShape, first: usize, count: usize) -> Self {
         Self {
@@ -404,8 +410,8 @@ impl Datum {
 /// Kind of the values of a datum.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum DatumShape {
-    /// A point in the frame of the body with this index (m); it has as many values as the space has
-    /// dimensions.
+    /// A point in the frame of the body with this index (m). The number of values is the dimension
+    /// of the space.
     Point {
         /// Index of the body.
         slot: usize,
@@ -416,8 +422,8 @@ pub enum DatumShape {
         /// Index of the body.
         slot: usize,
     },
-    /// Three values: the rotation vector of axes in the frame of the body with this index (rad); it
-    /// is zero for the stored axes.
+    /// Three values: the rotation vector of axes in the frame of the body with this index (rad).
+    /// The rotation vector is zero for the stored axes.
     Axes {
         /// Index of the body.
         slot: usize,
@@ -453,13 +459,14 @@ pub enum Role {
 /// One row of a constraint.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Row {
-    /// Name of the row; it is unique within the joint.
+    /// Name of the row. It is unique within the joint.
     pub name: &'static str,
     /// Whether the row restricts the initial configuration. A row that stores an initial value does
-    /// not, because every initial configuration satisfies it.
+    /// not restrict the initial configuration, because every initial configuration satisfies this
+    /// row.
     pub restricts_start: bool,
-    /// Whether the row is the gap of a contact, positive where the contact is open. A joint may be
-    /// one-sided in this row.
+    /// Whether the row is the gap of a contact. The gap is positive if the contact is open. A joint
+    /// may be one-sided in this row.
     pub is_gap: bool,
 }
 
@@ -539,8 +546,8 @@ pub struct Measure {
     pub name: &'static str,
     /// Name of the definition of the drive.
     pub drive: &'static str,
-    /// Whether the rows of the joint keep the coordinate at its initial value; in this case, the
-    /// rows of the drive replace them.
+    /// Whether the rows of the joint keep the coordinate at its initial value. In this case, the
+    /// rows of the drive replace these rows of the joint.
     pub is_kept: bool,
 }
 
@@ -555,8 +562,8 @@ impl Measure {
         }
     }
 
-    /// Creates a joint coordinate that the rows of the joint keep constant, with the definition of
-    /// its drive.
+    /// Creates a joint coordinate that the rows of the joint keep constant. The second argument is
+    /// the definition of the drive.
     #[must_use]
     pub const fn kept(name: &'static str, drive: &'static str) -> Self {
         Self {
@@ -569,7 +576,7 @@ impl Measure {
 /// Specification of a force definition.
 #[derive(Clone, Copy, Debug)]
 pub struct ForceSpec {
-    /// What constraints and forces have in common.
+    /// The common part of a specification.
     pub common: Spec,
     /// Columns of the block of Q that are not identically zero.
     pub q: &'static [usize],
