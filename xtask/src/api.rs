@@ -1,5 +1,5 @@
-//! The public API of each published crate, as text: everything that a user of the crate can name. A
-//! review then shows every change of the API, and a test compares text and code.
+//! The public API of each published crate, as text: everything that a user of the crate can name.
+//! The text makes every change of the API visible in a review. A test compares text and code.
 
 mod module;
 mod public;

@@ -1,6 +1,6 @@
-//! `cargo xtask browser`: opens reports of scenes in the plane and in space in a real browser. This
-//! needs Node and Chromium, which are not dependencies of the project; without them the pages are
-//! tested only as text.
+//! `cargo xtask browser`: opens reports of scenes in the plane and in space in a real browser. The
+//! test needs Node and Chromium, which are not dependencies of the project. Without these programs,
+//! the pages are tested only as text.
 
 use std::fs;
 use std::path::Path;
@@ -8,9 +8,9 @@ use std::process::{Command, Stdio};
 
 use crate::tree::{cargo, root, run, target};
 
-/// Scenes whose reports are opened: redundant and driven, closed loops, and nonholonomic without
-/// redundancy; in space wheels and loops, and a loop that moves although its mobility count is
-/// zero.
+/// Scenes whose reports are opened. In the plane: a redundant mechanism with drives, closed loops,
+/// and a nonholonomic mechanism without redundancy. In space: wheels and loops, and a loop that
+/// moves although its mobility count is zero.
 const SCENES: [(&str, &str); 5] = [
     ("robot-trolley", "crates/robot-trolley/robot-trolley.toml"),
     ("three-cranks", "crates/suite/scenes/three-cranks.toml"),
@@ -19,7 +19,8 @@ const SCENES: [(&str, &str); 5] = [
     ("bennett", "examples/bennett.toml"),
 ];
 
-/// Two crossing bars in space, the first above the second, on springs so that they move.
+/// Two crossing bars in space. The first bar is above the second. Both bars are on springs, so that
+/// they move.
 const CROSSING: &str = r#"
 scene = { name = "crossing", space = "spatial" }
 body = [
@@ -39,8 +40,8 @@ force = [
 simulate = { t_end = 0.5, output_step = 0.01 }
 "#;
 
-/// A beam on two pins that share loads, with a pendulum, as a report for a customer: a plot with
-/// several curves, a determined sum, and an undetermined curve.
+/// A beam on two pins that share loads, and a pendulum. The report is for a customer. It contains a
+/// plot with several curves, a determined sum, and an undetermined curve.
 const CUSTOMER: &str = r#"
 [scene]
 name = "customer"
@@ -87,7 +88,7 @@ print = "customer"
 plots = [{ title = "Loads", curves = ["left.Fy", "right.Fy", "both", "left.Fx"] }, ["bob.x", "bob.y"]]
 "#;
 
-/// Half the number of bodies of a large scene: double pendulums in rows.
+/// Number of double pendulums in a large scene, which is half the number of bodies.
 const PENDULUMS: usize = 500;
 
 /// A thousand bodies in space.

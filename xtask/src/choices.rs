@@ -1,6 +1,6 @@
-//! The cost of programs that use parts of the project: clean build time, size and dependencies of
-//! the small programs in `xtask/choices` and of the command itself, one at a time in an empty
-//! target directory.
+//! The cost of programs that use parts of the project: clean build time, size and dependencies. The
+//! programs are the small programs in `xtask/choices` and the command itself. They are built one
+//! after another, each in an empty target directory.
 
 use std::collections::BTreeSet;
 use std::fs;
@@ -10,7 +10,7 @@ use std::time::Instant;
 use crate::scene;
 use crate::tree::{cargo, machine, root, run, said_by};
 
-/// A scene, and the path from which the program with generated code includes its module.
+/// A scene, and the path of the generated module that the program with generated code includes.
 const ROBOT: &str = "crates/robot-trolley/robot-trolley.toml";
 const GENERATED: &str = "xtask/choices/generated/src/robot.rs";
 
@@ -91,8 +91,8 @@ Build times are those of the machine and its neighbours; processor seconds are o
 scripts use. Profiles are cargo's own, `release` stripped; the debug profile of the command is that of the workspace, which optimises.
 ";
 
-/// Builds all programs; the table is written after each of them, so that an interruption loses only
-/// the last one.
+/// Builds all programs. The table is written after each program, so that an interruption loses only
+/// the last program.
 pub(crate) fn report() -> Result<String, String> {
     let target = std::env::temp_dir().join(format!("pfaff-choices-{}", std::process::id()));
     let path = root().join(REPORT);
@@ -118,8 +118,8 @@ pub(crate) fn report() -> Result<String, String> {
     Ok(format!("written to {REPORT}"))
 }
 
-/// Sets the dependencies of the programs to the versions of the workspace; cargo removes the
-/// dependencies that they do not need.
+/// Sets the dependencies of the programs to the versions of the workspace. Cargo removes
+/// dependencies that the programs do not need.
 fn same_versions() -> Result<(), String> {
     let lock = |folder: &str| root().join(folder).join("Cargo.lock");
     let (from, to) = (lock("."), lock("xtask/choices"));
@@ -168,7 +168,8 @@ fn measure(choice: &Choice, target: &Path) -> Result<Cost, String> {
     })
 }
 
-/// Number of crates that are compiled with the program: crates of this project, and others.
+/// Returns the numbers of crates that are compiled with the program: crates of this project, and
+/// crates of other projects.
 fn dependencies(choice: &Choice, folder: &Path) -> Result<(usize, usize), String> {
     let tree = [
         "tree",
@@ -220,12 +221,12 @@ fn remove(folder: &Path) -> Result<(), String> {
     }
 }
 
-/// User and system time of all finished child processes (s); Linux counts it in hundredths of a
-/// second.
+/// Returns the user and system time of all finished child processes (s). Linux counts this time in
+/// hundredths of a second.
 fn processor_seconds() -> Option<f64> {
     let stat = fs::read_to_string("/proc/self/stat").ok()?;
-    // The name, in parentheses, may contain spaces; the times of child processes are the 14th and
-    // 15th values after it.
+    // The name is in parentheses and may contain spaces. The times of child processes are the 14th
+    // and 15th values after the name.
     let (_, values) = stat.rsplit_once(')')?;
     let ticks: Vec<f64> = values
         .split_whitespace()

@@ -12,8 +12,8 @@ use crate::tree::root;
 const DEFINITIONS: &str = "crates/joints/definitions";
 const GENERATED: &str = "crates/joints/src/generated";
 
-/// The folders of a space, relative to the folders of all spaces; and the form in which its
-/// definitions are listed.
+/// The folders of a space, relative to the folders of all spaces, and the form of the list of its
+/// definitions.
 struct Family {
     definitions: &'static str,
     generated: &'static str,

@@ -1,5 +1,5 @@
-//! Run times of the commands from a cold start, including the start of the process: the robot with
-//! its trolley, in an optimised build.
+//! Run times of the commands from a cold start, including the start of the process. The scene is
+//! the robot with its trolley, and the build is optimised.
 
 use std::fmt::Write;
 use std::process::{Command, Stdio};

@@ -11,7 +11,7 @@ use crate::tree::{cargo, root, run, said_by, target};
 const TURNS: usize = 12;
 const RUNS: &str = "60";
 
-/// Number of runs whose instructions are counted; the instructions of a single run are subtracted,
+/// Number of runs whose instructions are counted. The instructions of a single run are subtracted,
 /// and the difference is divided by the number of runs minus one.
 const COUNTED: u64 = 4;
 

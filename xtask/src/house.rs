@@ -56,7 +56,8 @@ struct Counted {
     circles: Vec<circles::Circle>,
 }
 
-/// Measures the workspace. `check` prints only the limits, and fails if one is exceeded.
+/// Measures the workspace. With `check`, the function prints only the limits, and fails if a limit
+/// is exceeded.
 pub(crate) fn tell(is_json: bool, check: bool) -> Result<String, String> {
     let crates = source::crates(&root())?;
     let counted: Vec<Counted> = crates.iter().map(count).collect();

@@ -1,9 +1,11 @@
 //! `THIRD-PARTY.md`: the third-party crates and fonts that the command `pfaff` and the Python
 //! package link, with their licences and licence texts, for all features. The data come from
-//! `cargo tree`, which resolves features as a build does, and from the sources of the crates.
+//! `cargo tree` and from the sources of the crates. `cargo tree` resolves features in the same way
+//! as a build.
 //!
-//! The programs cargo-about and cargo-deny have more functions, but they must be installed first.
-//! This module needs only the tools that build the workspace, and `--check` needs no network.
+//! The programs cargo-about and cargo-deny have more functions, but users must first install these
+//! programs. This module needs only the tools that build the workspace, and `--check` needs no
+//! network.
 
 mod spdx;
 mod texts;
@@ -51,7 +53,8 @@ const OTHERS: [(&str, &str); 1] = [(
 const FILE: &str = "THIRD-PARTY.md";
 const WRITE: &str = "`cargo xtask licences` writes it anew";
 
-/// Kinds of dependencies that are linked into the command, without those that only build it.
+/// Kinds of dependencies that are linked into the command. Dependencies that only build the command
+/// are omitted.
 const LINKED: &str = "normal,no-proc-macro";
 const BUILDING: &str = "normal,build";
 
@@ -206,7 +209,8 @@ impl Product {
         Ok(())
     }
 
-    /// The third-party crates on which the product depends on a platform, by edges of these kinds.
+    /// Returns the third-party crates on which the product depends on a platform. Only dependencies
+    /// of these kinds count.
     fn packages(
         self,
         target: &str,

@@ -1,8 +1,8 @@
 //! Commands for developers. `cargo xtask codegen` writes the kernels of all joints and forces from
-//! their definitions; with `--check` it only compares them; with `--scene` it writes one mechanism
-//! as one module. `house` measures the code. `licences` type-checks the command for all systems and
-//! then lists its third-party crates; `platforms` only makes this check. The other commands measure
-//! run times and write `docs/reports`.
+//! their definitions. With `--check`, it only compares the kernels; with `--scene`, it writes one
+//! mechanism as one module. `house` measures the code. `licences` type-checks the command for all
+//! systems and then lists the third-party crates of the command. `platforms` only type-checks the
+//! command. The other commands measure run times and write `docs/reports`.
 #![allow(clippy::print_stdout, clippy::print_stderr)]
 
 mod api;
@@ -67,7 +67,7 @@ fn main() -> ExitCode {
         ["house", flags @ ..] if flags.iter().all(|f| ["--json", "--check"].contains(f)) => {
             house::tell(flags.contains(&"--json"), flags.contains(&"--check"))
         }
-        // The third-party crates have changed: they may not support a system.
+        // The third-party crates have changed, and a new version may not support every system.
         ["licences"] => platforms::check_all()
             .and_then(|checked| Ok(format!("{checked}\n{}", licences::write()?))),
         ["licences", "--check"] => licences::check(),

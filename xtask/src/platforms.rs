@@ -6,7 +6,7 @@ use std::process::Command;
 
 use crate::tree::{cargo, root, run, said_by};
 
-/// A target of the compiler, and the system that it belongs to.
+/// A target of the compiler, and the system of this target.
 pub(crate) const PLATFORMS: [(&str, &str); 4] = [
     ("x86_64-unknown-linux-gnu", "Linux"),
     ("x86_64-pc-windows-gnu", "Windows"),
@@ -23,9 +23,9 @@ const ALL: [&str; 3] = [
     "aarch64-apple-darwin",
 ];
 
-/// Represents every system except Linux at each change. The sources of this workspace only
-/// distinguish Linux from other systems, which a test of `house` checks, so only third-party crates
-/// can differ.
+/// This target represents every system except Linux in the check of each change. The sources of
+/// this workspace only distinguish Linux from other systems, so only third-party crates can differ.
+/// A test of `house` checks this property of the sources.
 const OTHER: [&str; 1] = ["x86_64-pc-windows-gnu"];
 
 /// Type-checks the command for a system that is not Linux.
@@ -38,9 +38,9 @@ pub(crate) fn check_all() -> Result<String, String> {
     check_for(&ALL)
 }
 
-/// Type-checks the command for those other systems whose standard libraries are installed or can be
-/// installed; the names of skipped systems are printed. One cargo command checks all of them, so
-/// that waiting for a crate of one system overlaps with crates of another.
+/// Type-checks the command for all of these systems whose standard libraries are installed or can
+/// be installed. The names of skipped systems are printed. One cargo command checks all systems, so
+/// that the compilations for different systems overlap.
 fn check_for(targets: &[&str]) -> Result<String, String> {
     let own = said_by(Command::new("rustc").args(["--print", "host-tuple"]))?;
     let mut lines = Vec::new();

@@ -1,5 +1,5 @@
 //! The files that are derived from the list of questions. A separate program that contains the
-//! product writes them: xtask itself compiles without the product.
+//! product writes these files, so that xtask itself compiles without the product.
 
 use std::env;
 use std::process::Command;

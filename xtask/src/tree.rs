@@ -1,4 +1,4 @@
-//! Paths of the project, and functions that run programs in it.
+//! Paths of the project, and functions that run programs in the directories of the project.
 
 use std::path::{Path, PathBuf};
 use std::process::Command;

@@ -6,7 +6,7 @@ use crate::question::Question;
 /// The page with a section for each command.
 pub(crate) const PATH: &str = "docs/book/commands.md";
 
-/// The page with new tables: each table is between two comments.
+/// Returns the page with new tables. Each table is between two comments.
 pub(crate) fn with_tables(page: &str, questions: &[Question]) -> Result<String, String> {
     let mut text = page.to_owned();
     for question in questions

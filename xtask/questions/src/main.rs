@@ -19,7 +19,8 @@ fn root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../..")
 }
 
-/// All files that are derived from the list, by their paths from the root, with their texts.
+/// Returns the paths, relative to the root, and the texts of all files that are derived from the
+/// list.
 fn files() -> Result<Vec<(String, String)>, String> {
     let questions = questions();
     let mut files = Vec::new();

@@ -13,7 +13,7 @@ pub(crate) struct QuestionOption {
     pub(crate) flag: String,
     /// Description of the option.
     pub(crate) help: String,
-    /// Default on the command line; empty if there is none.
+    /// Default on the command line. The text is empty if there is no default.
     pub(crate) default: String,
     /// Type of the option.
     pub(crate) kind: Kind,
@@ -28,7 +28,7 @@ pub(crate) enum Kind {
     Count,
     Number,
     Text,
-    /// A number, or a word instead of it.
+    /// A number, or a word in place of the number.
     NumberOrWord,
     /// Rows, from 1.
     Rows,

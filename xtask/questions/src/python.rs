@@ -1,6 +1,6 @@
-//! The methods of the Python package: typed keywords, one method for each question whose answer is
-//! a document. Questions that write their files during the computation return arrays in Python, and
-//! their methods are written by hand.
+//! The methods of the Python package, with typed keywords. There is one method for each question
+//! whose answer is a document. Questions that write files during the computation return arrays in
+//! Python. The methods of these questions are written by hand.
 
 use crate::option::{Kind, QuestionOption};
 use crate::question::Question;

@@ -1,5 +1,5 @@
-//! The items that a user of a library can name: items of public modules, and items that these
-//! re-export.
+//! The items that a user of a library can name: items of public modules, and items that public
+//! modules re-export.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -157,8 +157,8 @@ impl<'m> Public<'m> {
         }
     }
 
-    /// The module of the library at the end of a path, and the last name; `None` for paths to other
-    /// crates.
+    /// Returns the module of the library at the end of a path, and the last name. Returns `None`
+    /// for paths to other crates.
     fn resolve(&self, at: &[String], path: &[String]) -> Option<(Vec<String>, String)> {
         let (last, modules) = path.split_last()?;
         let mut home = at.to_vec();
@@ -295,7 +295,7 @@ fn type_name(item: &Item) -> Option<String> {
     })
 }
 
-/// Whether an attribute matters to a user.
+/// Whether the text of the API contains an attribute.
 fn is_told(attribute: &Attribute) -> bool {
     ["cfg", "cfg_attr", "derive", "non_exhaustive"]
         .iter()

@@ -1,9 +1,9 @@
 //! Circular dependencies of modules.
 //!
-//! A module is a file with the modules written inside it; tests and generated files are omitted.
-//! The module A **uses** the module B if code of A names an item that B defines: in a `use` that is
-//! not a re-export, or by a path anywhere in code, including the arguments of macros. The position
-//! of the definition counts: a path through re-exports is a use of the definition, so
+//! A module is a file with the modules inside the file. Tests and generated files are omitted. The
+//! module A **uses** the module B if code of A names an item that B defines: in a `use` that is not
+//! a re-export, or by a path anywhere in code, including the arguments of macros. The position of
+//! the definition counts: a path through re-exports is a use of the definition, so
 //! `mod b; pub use b::X;` is not a use of `b`, and `use super::X` of a child is a use of the parent
 //! only if the parent defines `X`. The following are not uses: `mod b;` alone, `use super::b`,
 //! which only gives the module a name, and a path that only passes through a module. In contrast,
@@ -11,8 +11,8 @@
 //! the file that contains `f`. Other method calls are not followed, because code that has a value
 //! has named its type or received it from code that has named it.
 //!
-//! A **circle** is a maximal set of modules in which each module uses every other one, directly or
-//! through others.
+//! A **circle** is a maximal set of modules in which each module uses every other module, directly
+//! or through other modules.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -27,7 +27,7 @@ use super::source::{Source, is_test};
 pub(super) struct Circle {
     /// Sorted paths.
     pub(super) modules: Vec<String>,
-    /// Each use between modules, with the names of the used items; `.f` is a method of a shared
+    /// Each use between modules, with the names of the used items. `.f` is a method of a shared
     /// type.
     pub(super) uses: Vec<(String, String, Vec<String>)>,
 }
@@ -35,7 +35,7 @@ pub(super) struct Circle {
 /// Used module → names of its used items.
 type Uses = BTreeMap<usize, BTreeSet<String>>;
 
-/// All circles of a crate with more than `most` modules, the largest first.
+/// All circles of a crate with more than `most` modules. The largest circle comes first.
 pub(super) fn circles(modules: &Modules, most: usize) -> Vec<Circle> {
     let uses = uses(modules);
     let reached: Vec<BTreeSet<usize>> = (0..uses.len()).map(|m| reached(&uses, m)).collect();
@@ -105,7 +105,7 @@ struct Paths<'a> {
 }
 
 impl Paths<'_> {
-    /// Adds the target of a path, if it is an item or all items of a module.
+    /// Adds the target of a path, if the target is an item or all items of a module.
     fn add(&mut self, module: usize, path: &[String], is_glob: bool) {
         if let Some(target) = self.modules.resolve(module, path)
             && (target.is_item || is_glob)
@@ -149,7 +149,7 @@ impl Paths<'_> {
         }
     }
 
-    /// Reads a `use`; returns the index after it.
+    /// Reads a `use`, and returns the index of the token after it.
     fn import(&mut self, module: usize, tokens: &[TokenTree], at: usize) -> usize {
         let is_reexport = match at.checked_sub(1).map(|i| &tokens[i]) {
             Some(TokenTree::Ident(word)) => word == "pub",
@@ -167,7 +167,8 @@ impl Paths<'_> {
         end
     }
 
-    /// Reads a path, or a single name that can only be an item; returns the index after it.
+    /// Reads a path, or a single name that can only be an item. Returns the index of the token
+    /// after it.
     fn path(&mut self, module: usize, tokens: &[TokenTree], at: usize) -> usize {
         let (mut path, mut end) = (Vec::new(), at);
         while let Some(TokenTree::Ident(word)) = tokens.get(end) {

@@ -68,7 +68,7 @@ impl Search<'_> {
     }
 }
 
-/// The rest of the sentence that starts with this word in a comment, without its full stop.
+/// Returns the rest of the sentence that starts with this word in a comment, without the full stop.
 fn said(attrs: &[Attribute], word: &str) -> String {
     let lines = attrs.iter().filter_map(|a| match &a.meta {
         Meta::NameValue(doc) if doc.path.is_ident("doc") => doc.value.span().source_text(),

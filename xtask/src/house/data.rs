@@ -1,5 +1,5 @@
-//! Data files that a program includes when it is compiled. Data files are a part of the program
-//! that is not counted as code.
+//! Data files that a program includes at compile time. Data files are a part of the program that is
+//! not counted as code.
 
 use std::fs;
 use std::path::Path;

@@ -1,8 +1,8 @@
 //! Lines and tokens of code.
 //!
-//! A line counts if it contains a token of the tokenizer of `proc_macro2`: blank lines and comments
-//! contain no token, a doc comment is a comment, and all lines of a multi-line string count. The
-//! number of tokens is listed too, because long lines do not reduce it.
+//! A line counts if it contains a token of the tokenizer of `proc_macro2`. Blank lines and comments
+//! contain no token. A doc comment is a comment. All lines of a multi-line string count. The number
+//! of tokens is also listed, because long lines do not reduce the number of tokens.
 
 use std::collections::BTreeSet;
 use std::ops::AddAssign;
@@ -85,8 +85,8 @@ impl Seen {
     }
 }
 
-/// Whether a `#` starts a doc comment. In this case it has the span of the comment, while a written
-/// `#` has width one.
+/// Whether a `#` starts a doc comment. In a doc comment, the `#` has the span of the comment. A `#`
+/// in the text has width one.
 fn is_comment(hash: Span) -> bool {
     let (start, end) = (hash.start(), hash.end());
     (end.line, end.column) != (start.line, start.column + 1)

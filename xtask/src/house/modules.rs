@@ -1,4 +1,4 @@
-//! The modules of a crate, and the targets of paths in them.
+//! The modules of a crate, and the targets of paths in the modules.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -10,14 +10,14 @@ use super::source::{Crate, Kind, Source, is_test, submodules};
 /// Largest depth to which re-exports of re-exports are followed.
 const DEPTH_MOST: usize = 16;
 
-/// One module, in its own file or inside another.
+/// One module, in its own file or inside another module.
 pub(super) struct Module<'a> {
     /// Path in the form `crate::a::b`.
     pub(super) path: String,
     pub(super) source: &'a Source,
     pub(super) items: Vec<&'a Item>,
-    /// Index of the file module that contains this module: the module itself, except for modules
-    /// inside others.
+    /// Index of the file module that contains this module. For a module with its own file, this is
+    /// the module itself.
     pub(super) file: usize,
     root: usize,
     parent: usize,
@@ -32,7 +32,7 @@ pub(super) struct Module<'a> {
 /// All modules of a crate that are neither tests nor generated.
 pub(super) struct Modules<'a>(pub(super) Vec<Module<'a>>);
 
-/// The target of a path: a module, or an item that it defines.
+/// The target of a path: a module, or an item that a module defines.
 #[derive(Clone, Copy)]
 pub(super) struct Target {
     pub(super) module: usize,
@@ -60,7 +60,7 @@ impl<'a> Modules<'a> {
         modules
     }
 
-    /// Adds a module below `parent` and the modules that it declares; the arguments are
+    /// Adds a module below `parent`, and the modules that this module declares. The arguments are
     /// `(root, parent, file)`.
     fn add(
         &mut self,
@@ -109,8 +109,8 @@ impl<'a> Modules<'a> {
         }
     }
 
-    /// The target of a path in the module `from`; re-exports are followed. `None` for local names,
-    /// and if the target is not in this crate.
+    /// Returns the target of a path in the module `from`. Re-exports are followed. Returns `None`
+    /// for local names, and if the target is not in this crate.
     pub(super) fn resolve(&self, from: usize, path: &[String]) -> Option<Target> {
         self.resolve_within(from, path, DEPTH_MOST)
     }

@@ -1,4 +1,5 @@
-//! Names of types: each name is used once in a crate, and the name of a type is a noun.
+//! Names of types. Each name should be used only once in a crate, and the name of a type should be
+//! a noun.
 
 use std::collections::BTreeMap;
 

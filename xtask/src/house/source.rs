@@ -10,7 +10,7 @@ use syn::visit::{self, Visit};
 
 use crate::tree::{cargo, said_by};
 
-/// Crates of the laboratory, whichever crates depend on them.
+/// Crates of the laboratory. They belong to the laboratory even if other crates depend on them.
 const LABORATORY: [&str; 3] = ["exact", "lab", "suite"];
 /// The manifest of the command; its dependencies are the product.
 const COMMAND: &str = "crates/pfaff-cli/Cargo.toml";
@@ -96,7 +96,7 @@ impl Source {
     }
 }
 
-/// Reads all crates below the root: files that git tracks or would track.
+/// Reads all crates below the root. The files are the files that git tracks or would track.
 pub(super) fn crates(root: &Path) -> Result<Vec<Crate>, String> {
     let mut list = Command::new("git");
     list.current_dir(root)
@@ -190,7 +190,8 @@ pub(super) fn kind(path: &str) -> Kind {
     }
 }
 
-/// Marks files of modules that are declared `#[cfg(test)]` as tests, whatever their names.
+/// Marks files of modules that are declared `#[cfg(test)]` as tests. The names of the files have no
+/// effect.
 fn mark_tests(home: &mut Crate) {
     let mut tests = Vec::new();
     for source in home.files.iter().filter(|f| f.kind == Kind::Code) {

@@ -11,7 +11,8 @@ pub(super) struct Table {
     pub(super) rows: Vec<Vec<Value>>,
 }
 
-/// One document: an object of arrays of rows, each an object with the columns as keys.
+/// Returns one document: an object of arrays of rows. Each row is an object with the columns as
+/// keys.
 pub(super) fn json(tables: &[Table]) -> String {
     let row = |table: &Table, row: &Vec<Value>| {
         let keys = table.columns.iter().map(|c| (*c).to_owned());
@@ -24,7 +25,7 @@ pub(super) fn json(tables: &[Table]) -> String {
     format!("{:#}", Value::Object(all.collect::<Map<_, _>>()))
 }
 
-/// The tables as text, one after another; numbers are right-aligned.
+/// Returns the tables as text, one after another. Numbers are right-aligned.
 pub(super) fn plain(tables: &[Table]) -> String {
     tables.iter().map(plain_one).collect::<Vec<_>>().join("\n")
 }

@@ -325,7 +325,7 @@ fn conditions_on_systems(tokens: &TokenStream) -> Vec<String> {
 }
 
 /// The sources distinguish only Linux from all other systems. Therefore one other system represents
-/// all of them in [`crate::platforms`].
+/// all other systems in [`crate::platforms`].
 #[test]
 fn sources_tell_linux_from_others_and_nothing_else() {
     for home in crates(&root()).expect("sources") {

@@ -1,10 +1,10 @@
 //! Types with much state or many methods.
 //!
 //! A type is **plain data** if all its fields are `pub`, or as visible as the type itself, and no
-//! method of the type in its crate takes `&mut self`: it is a record or a set of options. All other
-//! types are **stateful**. The fields of an enum are the fields of its largest variant. Methods are
-//! the functions of all `impl` blocks of the type without a trait, with or without `self`; tests
-//! and code that macros write are omitted.
+//! method of the type in its crate takes `&mut self`. Plain data are records or sets of options.
+//! All other types are **stateful**. The fields of an enum are the fields of its largest variant.
+//! Methods are the functions of all `impl` blocks of the type without a trait, with or without
+//! `self`. Tests and code that macros write are omitted.
 
 use std::collections::BTreeMap;
 
@@ -29,7 +29,7 @@ pub(super) struct Type {
     pub(super) is_stateful: bool,
 }
 
-/// Types of a crate above one of the bounds, the largest first.
+/// Types of a crate above one of the bounds. The largest type comes first.
 pub(super) fn large(modules: &Modules) -> Vec<Type> {
     let mut types = BTreeMap::new();
     for (id, module) in modules.0.iter().enumerate() {

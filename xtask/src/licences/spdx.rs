@@ -1,6 +1,6 @@
 //! The allowed licences, and the choice between several licences of a crate.
 
-/// Allowed licences, in the order of preference, with the reason.
+/// Allowed licences in the order of preference, each with the reason.
 pub(super) const ALLOWED: [(&str, &str); 11] = [
     (
         "MIT",
@@ -30,8 +30,8 @@ pub(super) const ALLOWED: [(&str, &str); 11] = [
     ("Unlicense", "asks for nothing"),
 ];
 
-/// The licences of an SPDX expression that are chosen for a crate: all parts of an `AND`, the first
-/// allowed part of an `OR`.
+/// Returns the licences of an SPDX expression that are chosen for a crate. All parts of an `AND`
+/// are chosen, and the first allowed part of an `OR`.
 pub(super) fn taken(expression: &str) -> Result<Vec<&'static str>, String> {
     // Before SPDX, crates wrote `A/B` for `A OR B`.
     let spaced = expression

@@ -30,7 +30,8 @@ const NAMES: [(&str, &[&str]); 8] = [
     ("Unlicense", &["unlicense"]),
 ];
 
-/// The licence texts of these crates without repetitions, each with its crates.
+/// Returns the licence texts of these crates without repetitions. Each text has the list of its
+/// crates.
 pub(super) fn texts<'p>(
     packages: impl Iterator<Item = &'p Package>,
     sources: &BTreeMap<(String, String), Source>,
@@ -91,7 +92,7 @@ fn standard(taken: &[&str]) -> Result<Option<String>, String> {
     Ok(Some(lines.collect::<Vec<_>>().join("\n")))
 }
 
-/// The files in a folder with these licences, and with notices.
+/// Returns the files in a folder that contain these licences or notices.
 fn files(folder: &Path, taken: &[&str]) -> Result<Vec<PathBuf>, String> {
     let entries = fs::read_dir(folder).map_err(|e| format!("{}: {e}", folder.display()))?;
     let mut files: Vec<(String, PathBuf)> = entries
