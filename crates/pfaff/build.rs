@@ -9,8 +9,9 @@ fn main() {
     scenes("PFAFF_ROBOT", &format!("../robot-trolley/{robot}"), robot);
 }
 
-/// Sets a variable to a path: in a checkout of the repository that of the originals, in a package
-/// that of their copies. In a checkout the copies are links, which some systems do not follow.
+/// Sets a variable to a path. In a checkout of the repository, it is the path of the original
+/// files. In a package, it is the path of the copies. In a checkout, the copies are links, and some
+/// systems do not follow links.
 fn scenes(variable: &str, original: &str, copy: &str) {
     let root = std::env::var("CARGO_MANIFEST_DIR").unwrap_or_default();
     let originals = Path::new(&root).join(original);

@@ -4,8 +4,9 @@
 //! cargo run --release -p pfaff --example imported_accelerations -- arm.xml
 //! ```
 //!
-//! One line for each body and keyframe: keyframe, body, position and acceleration of its mass
-//! centre, and angular acceleration, each along the axes of the ground.
+//! The output has one line for each body and keyframe: the keyframe, the body, the position and the
+//! acceleration of the mass centre, and the angular acceleration. Vectors are along the axes of the
+//! ground.
 
 use std::error::Error;
 use std::ops::ControlFlow;
@@ -45,7 +46,8 @@ fn main() -> Result<(), Box<dyn Error>> {
             for (k, name) in names.iter().enumerate() {
                 let pose = &sample.q[7 * k..7 * k + 7];
                 let spin = [a[6 * k + 3], a[6 * k + 4], a[6 * k + 5]];
-                // A motion has the quaternion of the principal axes, in which velocities are.
+                // The coordinates contain the quaternion of the principal axes. Angular velocities
+                // are in these axes.
                 let spin = times(&rotation(&pose[3..]), spin);
                 let numbers = pose[..3].iter().chain(&a[6 * k..6 * k + 3]).chain(&spin);
                 let numbers: Vec<String> = numbers.map(|x| format!("{x:?}")).collect();

@@ -1,5 +1,5 @@
-//! The cost of a large scene: reading, building, assembling, the verdict of every reaction, the
-//! sensitivities, choosing rows, and one right-hand side.
+//! Measures the cost of a large scene. The steps are reading, building, assembling, the verdict on
+//! every reaction, the sensitivities, the choice of rows, and one right-hand side.
 //!
 //! `cargo run --release -p pfaff --example large -- SCENE.toml …`
 #![allow(clippy::print_stdout)]
@@ -11,7 +11,7 @@ use pfaff::dynamics::{KeptRowMotion, RowChoice, prepare};
 use pfaff::model::{Mechanism, Registry, System};
 use pfaff::solvability::{Verdict, analyse};
 
-/// Number of evaluations; the smallest time counts.
+/// Number of evaluations. The smallest time counts.
 const RUNS: usize = 25;
 
 fn main() -> Result<(), Box<dyn Error>> {

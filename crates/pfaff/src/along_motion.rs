@@ -18,27 +18,28 @@ use solvability::{
 use crate::error::StudyError;
 use crate::study::Study;
 
-/// Smallest number of analysed states, evenly spaced in time. For mechanisms with many rows the
-/// number is `INTERVALS_OF_ROWS` divided by the number of rows, but at least `INTERVALS_LEAST`.
+/// Smallest number of analysed states. The states are evenly spaced in time. For mechanisms with
+/// many rows, the smallest number is `INTERVALS_OF_ROWS` divided by the number of rows, but at
+/// least `INTERVALS_LEAST`.
 const INTERVALS: usize = 200;
 const INTERVALS_OF_ROWS: usize = 240_000;
 const INTERVALS_LEAST: usize = 24;
 
-/// Recorded rows between two analysed states. States between rows are interpolated, with an error
-/// of REACH⁴/384 times the distance of the rows, and moved onto the constraints. Mechanisms with
-/// more than `MANY` rows have one recorded row per analysed state, as interpolated by the
-/// integrator, because a projection of rows would take longer than all steps. Their accelerations
-/// are slopes of the velocities and are used only for the direction of the motion at singular
-/// instants.
+/// Recorded rows between two analysed states. States between rows are interpolated and then moved
+/// onto the constraints. The interpolation error is REACH⁴/384 times the distance of the rows.
+/// Mechanisms with more than `MANY` rows of C have one recorded row per analysed state. The
+/// integrator interpolates this row, because a projection of rows would take longer than all steps.
+/// The accelerations are slopes of the velocities. They are used only for the direction of the
+/// motion at singular instants.
 const ROWS: usize = 4;
 const MANY: usize = 10_000;
 
-/// Between analysed states no body moves by more than this fraction of the size of the mechanism,
-/// or rotates by more than this angle (rad).
+/// Largest motion of a body between two analysed states: a displacement as a fraction of the size
+/// of the mechanism, or a rotation angle (rad).
 const REACH: f64 = 0.1;
 
-/// A motion that stopped is extrapolated by this multiple of the time between its last row and its
-/// end, or of the time between rows if that is longer.
+/// Length of the extrapolation of a motion that stopped. It is a multiple of the time between the
+/// last row and the end of the motion, or of the time between rows if the latter is longer.
 const BEYOND: f64 = 8.0;
 
 /// Largest number of analysed states.
@@ -48,7 +49,7 @@ const INTERVALS_MAX: usize = 4_000;
 #[derive(Debug)]
 #[non_exhaustive]
 pub struct VerdictsAlongMotion {
-    /// The verdicts by stretches of time, and the singular configurations.
+    /// The verdicts on each stretch of time, and the singular configurations.
     pub along: MotionAnalysis,
     /// Last time that was analysed (s).
     pub to: f64,
@@ -61,7 +62,8 @@ pub struct VerdictsAlongMotion {
     pub stopped: Option<MotionError>,
     /// Time (s) up to which the analysis extrapolated the motion smoothly beyond its last state, if
     /// the motion stopped at a singular configuration. The analysis of the singular configuration
-    /// determines how the motion continues; the motion itself was not computed there.
+    /// determines how the motion continues. The motion itself was not computed beyond its last
+    /// state.
     pub continued_to: Option<f64>,
 }
 
@@ -93,13 +95,14 @@ impl VerdictsAlongMotion {
 pub enum MotionProgress {
     /// The motion has reached this time (s).
     Moving(f64),
-    /// Verdicts are computed at this time (s); searches move forwards and backwards in time.
+    /// Verdicts are computed at this time (s). The times do not increase monotonically, because
+    /// searches also go backwards in time.
     Judging(f64),
 }
 
 impl Study {
     /// Runs the scene up to `t_end`, or to the end that the scene states, and analyses the motion.
-    /// If the run stops early, the part that was computed is analysed.
+    /// If the run stops early, the function analyses the computed part.
     ///
     /// ```
     /// use pfaff::model::Registry;
@@ -132,8 +135,8 @@ impl Study {
         self.verdicts_along_motion_until(t_end, &|| false, progress)
     }
 
-    /// Like [`Self::verdicts_along_motion`], but `stop` is called at each evaluation of the motion,
-    /// and before the motion is analysed.
+    /// Works like [`Self::verdicts_along_motion`], but calls `stop` at each evaluation of the
+    /// motion, and before the motion is analysed.
     ///
     /// # Errors
     /// Returns the errors of [`Self::verdicts_along_motion`], and [`StudyError::Interrupted`] if
@@ -169,9 +172,10 @@ impl Study {
         if run.stopped.is_none() && intervals == least {
             return self.judge(run, intervals, &mut progress);
         }
-        // Record the motion again if it is too fast for these rows, or record it up to the last
-        // state before it stopped. That state may be too close to a singular configuration for a
-        // projection onto the constraints; then the last row before it is used.
+        // If the motion is too fast for these rows, it is recorded again. If the motion stopped, it
+        // is recorded again up to its last state. This last state may be too close to a singular
+        // configuration for a projection onto the constraints. In this case, the last row before
+        // this state is used.
         let again = self.record(run.reached, intervals, stop, &mut progress)?;
         let stopped = again.stopped.is_some();
         match self.judge(again, intervals, &mut progress) {
@@ -188,8 +192,8 @@ impl Study {
         }
     }
 
-    /// Analyses a motion that stopped, up to a time a little beyond its end, if this interval
-    /// contains a singular configuration.
+    /// Analyses a motion that stopped, up to a time a little later than its end, if the added
+    /// interval contains a singular configuration.
     fn judge_beyond(
         &self,
         run: &Record,
@@ -281,7 +285,7 @@ impl Study {
                 Rows::Every
             },
             accelerations: !many,
-            // With this option the run also returns its verdicts; the values of the reactions are
+            // With this option, the run also returns its verdicts. The values of the reactions are
             // not computed.
             reactions: Reactions::All,
             ..OutputRequest::default()
@@ -345,9 +349,10 @@ struct Row {
     a: Vec<f64>,
 }
 
-/// Sets the acceleration of each row to the slope of the parabola through its velocities and those
-/// of the adjacent rows. The first and last rows use the parabola through the three nearest rows.
-/// With only two rows, the acceleration is the slope of the line.
+/// Sets the acceleration of each row to the slope of a parabola. The parabola passes through the
+/// velocities of this row and of the two adjacent rows. For the first and the last row, it passes
+/// through the velocities of the three nearest rows. With only two rows, the acceleration is the
+/// slope of a line.
 fn differentiate(rows: &mut [Row]) {
     let secant = |pair: &[Row]| {
         let h = pair[1].t - pair[0].t;
@@ -380,7 +385,7 @@ struct Record {
     between: usize,
     /// The last accepted time (s), at or after the last row.
     reached: f64,
-    /// The verdicts of the run; `None` without joints and drives.
+    /// The verdicts of the run. `None` for a mechanism without joints and drives.
     verdicts: Option<Stretches>,
     stopped: Option<MotionError>,
 }
@@ -408,8 +413,8 @@ impl Record {
         self.between as f64 * self.rows.windows(2).map(moved).fold(0.0, f64::max)
     }
 
-    /// Interpolates the motion at a time between the first row and the last, or near them; at least
-    /// two rows are necessary.
+    /// Interpolates the motion at a time between the first row and the last row, or slightly
+    /// outside of this interval. At least two rows are necessary.
     fn state(&self, t: f64, extent: &Extent) -> State {
         let next = self.rows.partition_point(|row| row.t <= t);
         let k = next.clamp(1, self.rows.len() - 1);
@@ -444,8 +449,8 @@ fn hermite(u: f64, [x, slope_x]: [f64; 2], [y, slope_y]: [f64; 2]) -> f64 {
 mod tests {
     use super::*;
 
-    /// Slopes of parabolas are exact for velocities that are quadratic in time, at uneven times and
-    /// at the ends.
+    /// Slopes of parabolas are exact for velocities that are quadratic in time. This is also true
+    /// at uneven times and at the ends.
     #[test]
     fn slopes_of_recorded_velocities() {
         let v = |t: f64| vec![3.0 - 2.0 * t + 0.5 * t * t, 7.0 * t];

@@ -1,5 +1,5 @@
-//! A scene with its mechanism, before its rows are analysed. This is the first stage of a study. If
-//! the rank is too uncertain for a motion, it is the only available stage.
+//! A scene with its mechanism, before the rows of the mechanism are analysed. This is the first
+//! stage of a study. If the rank is too uncertain for a motion, no other stage is available.
 
 use dynamics::{MotionError, MotionOptions, PreparedMechanism, RowChoice};
 use dynamics::{prepare_after, start_velocity, unmovable};
@@ -39,13 +39,13 @@ use crate::within;
 pub struct AssembledScene {
     /// The scene, read from a text or built by a program.
     pub scene: Scene,
-    /// The mechanism of the scene. Its initial values are those given in the scene, before the
+    /// The mechanism of the scene. Its initial values are the values given in the scene, before the
     /// assembly.
     pub mechanism: Mechanism,
 }
 
 impl AssembledScene {
-    /// Reads a scene; `name` is the file name in messages.
+    /// Reads a scene. `name` is the file name in messages.
     ///
     /// # Errors
     /// [`StudyError::Scene`]: all faults of the text.
@@ -55,7 +55,8 @@ impl AssembledScene {
         Ok(Self { scene, mechanism })
     }
 
-    /// Builds the mechanism of a scene, or of a description without a scene that a program made.
+    /// Builds the mechanism of a scene. The argument may also be a description that a program made
+    /// without a scene.
     ///
     /// # Errors
     /// [`StudyError::Build`]: all faults of the description. If the scene was read from a text and
@@ -71,8 +72,8 @@ impl AssembledScene {
         }
     }
 
-    /// Replaces the tolerances that the `[scene]` table states; values that are `None` stay
-    /// unchanged. Tolerances of bodies and joints still take precedence.
+    /// Replaces the tolerances that the `[scene]` table states. Values that are `None` do not
+    /// replace anything. Tolerances of bodies and joints still take precedence.
     ///
     /// ```
     /// use pfaff::AssembledScene;
@@ -113,8 +114,8 @@ impl AssembledScene {
         self.prepare_after(overrides, None)
     }
 
-    /// Like [`AssembledScene::prepare`], but reuses the decisions for another mechanism with the
-    /// same constraints.
+    /// Works like [`AssembledScene::prepare`], but reuses the decisions for another mechanism with
+    /// the same constraints.
     pub(crate) fn prepare_after(
         self,
         overrides: &RunOptions,
@@ -150,7 +151,7 @@ impl AssembledScene {
                     other => other.into(),
                 });
             }
-            // Only errors of the text have a position in it; rows may come from the caller.
+            // Only errors of the text have a position in the text. Rows may come from the caller.
             Err(e @ (MotionError::Start(_) | MotionError::Contradiction(_))) => {
                 let help = within::advice(spare.as_ref(), &scene, &rows, &e);
                 return Err(match (refused(&scene, e), help) {
@@ -180,7 +181,7 @@ impl AssembledScene {
     }
 
     /// Moves the bodies to the nearest consistent configuration, and sets the initial values of the
-    /// joints to their values in it.
+    /// joints to the values at this configuration.
     ///
     /// # Errors
     /// [`StudyError::Scene`]: there is no such configuration; for a scene without text
@@ -189,8 +190,8 @@ impl AssembledScene {
         assemble(&mut self.mechanism, &self.scene.start).map_err(|e| refused(&self.scene, e.into()))
     }
 
-    /// Analyses the start, even if [`AssembledScene::prepare`] rejects it because the rank is
-    /// undecided in `f64` or no motion begins there.
+    /// Analyses the start, even if [`AssembledScene::prepare`] rejects the start because the rank
+    /// is undecided in `f64` or no motion begins.
     ///
     /// # Errors
     /// Returns the errors of [`AssembledScene::assemble`], also if the given velocities are
@@ -203,7 +204,8 @@ impl AssembledScene {
         self.analyse_with_progress(drop, |_| ())
     }
 
-    /// Like [`Self::analyse`]; calls `progress` with the number of joints analysed so far.
+    /// Works like [`Self::analyse`], and calls `progress` with the number of joints analysed so
+    /// far.
     ///
     /// # Errors
     /// Returns the errors of [`AssembledScene::analyse`].
@@ -233,7 +235,8 @@ impl AssembledScene {
         Ok(configuration)
     }
 
-    /// Works like [`Self::analyse`], but does not compute velocities, which no verdict needs.
+    /// Works like [`Self::analyse`], but does not compute velocities, because verdicts do not need
+    /// velocities.
     pub(crate) fn analyse_configuration(
         &mut self,
     ) -> Result<ConfigurationAnalysis<'_>, StudyError> {
@@ -270,13 +273,13 @@ pub(crate) fn refused(scene: &Scene, error: MotionError) -> StudyError {
     }
 }
 
-/// Whether rows contradict each other in accelerations only, and none of them is a driven row: then
-/// a motion with another velocity is possible.
+/// Whether rows contradict each other in accelerations only, and none of these rows is a driven
+/// row. In this case, a motion with another velocity is possible.
 fn leaves_no_motion(e: &MotionError) -> bool {
     matches!(e, MotionError::Contradiction(c) if c.level == ConstraintLevel::Acceleration && c.drives == 0)
 }
 
-/// The options of the scene, with those of the caller taking precedence.
+/// Returns the options of the scene. Options of the caller take precedence.
 pub(crate) fn options(scene: &Scene, overrides: &RunOptions) -> Option<MotionOptions> {
     let mut options = match (&scene.simulate, overrides.t_end) {
         (Some(options), _) => options.clone(),

@@ -1,5 +1,5 @@
-//! All loads on a body during a run, for finite elements: `body_NAME.csv`, or with values of a
-//! choice `choice_body_NAME.csv`.
+//! All loads on a body during a run, for finite element programs. The table is `body_NAME.csv`, or
+//! `choice_body_NAME.csv` with the values of a choice.
 
 use std::io::{BufRead, BufReader, BufWriter, Write};
 use std::ops::ControlFlow;
@@ -43,8 +43,8 @@ pub(crate) struct BodyLoads<'m> {
 }
 
 impl<'m> BodyLoads<'m> {
-    /// Creates the table. `is_plain` states that no row is redundant, `is_chosen` that the run has
-    /// a choice.
+    /// Creates the table. `is_plain` states that no row is redundant. `is_chosen` states that the
+    /// run has a choice.
     ///
     /// # Errors
     /// [`StudyError::File`], [`StudyError::Table`]; [`StudyError::LoadName`]: a joint or force has
@@ -138,7 +138,7 @@ impl<'m> BodyLoads<'m> {
         Ok(all.map(|wrench| wrench.along(axes)).collect())
     }
 
-    /// Copies the rows at which all loads are determined, or with a choice all rows.
+    /// Copies the rows at which all loads are determined. With a choice, copies all rows.
     fn copy(
         &mut self,
         mut all: OutputFile,
@@ -189,7 +189,7 @@ impl RowSink for BodyLoads<'_> {
         let wrenches = self.wrenches(sample)?;
         let numbers = wrenches.into_iter().flat_map(|w| w.components(space));
         let row: Vec<f64> = std::iter::once(sample.t).chain(numbers).collect();
-        // At an instant of lower rank the reactions have no values.
+        // At an instant of lower rank, the reactions have no values.
         if row.iter().any(|number| number.is_nan()) {
             self.found.rows_left_out += 1;
         } else if let Some(table) = &mut self.table {

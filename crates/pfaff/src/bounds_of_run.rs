@@ -34,7 +34,7 @@ use crate::words::{Block, Cell, count};
 /// File name of the table.
 pub(crate) const BOUNDS: &str = "bounds.csv";
 
-/// File name of the bounds of all columns, which is removed at the end.
+/// File name of the bounds of all columns. This file is removed at the end.
 const ALL: &str = "bounds_0.csv";
 
 /// Number of rows that are computed together.
@@ -56,7 +56,7 @@ pub(crate) struct BoundsOfRun<'m> {
     /// The table with its directory, if it is written.
     table: Option<(&'m OutputDirectory, BoundsTable<OutputFile>)>,
     rows: TableRows,
-    /// Whether rows between those of the table are computed for the page.
+    /// Whether rows between the rows of the table are computed for the page.
     is_pictured: bool,
     waiting: Vec<Instant>,
     found: FoundBounds,
@@ -65,13 +65,13 @@ pub(crate) struct BoundsOfRun<'m> {
 /// The results over the run.
 #[derive(Default)]
 pub(crate) struct FoundBounds {
-    /// The smallest and the largest value of each column with their times; `None` without bounds.
+    /// The smallest and the largest value of each column, with their times. `None` without bounds.
     pub(crate) columns: Vec<Option<RangeOfRunDocument>>,
     /// The largest magnitudes of force and moment of each joint and drive.
     pub(crate) magnitudes: Vec<(ConstraintId, [Option<ExtremeDocument>; 2])>,
     /// Rows without bounds of some reactions.
     pub(crate) gap: Option<Gap>,
-    /// The bounds of all columns at the rows of the run, as far as they are stored for the page.
+    /// The bounds of all columns at the rows of the run that are stored for the page.
     pub(crate) rows: Vec<(f64, Vec<[f64; 2]>)>,
     /// Whether the table exists.
     pub(crate) has_table: bool,
@@ -203,7 +203,7 @@ impl<'m> BoundsOfRun<'m> {
                 table.row(t, &bounds.columns)?;
             }
             let stored = self.found.rows.len() * self.columns.len();
-            // Without a table all rows are stored.
+            // Without a table, all rows are stored.
             if self.is_pictured && (stored < STORED || self.table.is_none()) {
                 self.found.rows.push((t, bounds.columns));
             }
@@ -316,7 +316,7 @@ impl<'m> BoundsOfRun<'m> {
 }
 
 impl FoundBounds {
-    /// Returns the bounds of a column at these times (s); NaN without bounds.
+    /// Returns the bounds of a column at these times (s). Without bounds, the numbers are NaN.
     pub(crate) fn ends(&self, column: usize, times: &[f64]) -> Vec<[f64; 2]> {
         let ends = times.iter().map(|time| {
             let at = self.rows.binary_search_by(|(t, _)| t.total_cmp(time));
@@ -442,7 +442,7 @@ pub(crate) fn add_to(
 /// Number of lines of the table of the largest loads.
 const LARGEST: usize = 12;
 
-/// Lists the upper bounds of the largest loads over the run, the largest forces first.
+/// Lists the upper bounds of the largest loads over the run. The largest forces come first.
 pub(crate) fn largest_loads(
     bounds: &RunBoundsDocument,
     mut known: Vec<(String, MagnitudeOfRunDocument)>,

@@ -92,7 +92,7 @@ fn wrong(text: &str, expected: &str) -> Refusal {
     Refusal::input(format!("--choose is `{text}`, need {expected}"))
 }
 
-/// Splits a list at its commas; a name may contain a comma.
+/// Splits a list at its commas. A name may contain a comma.
 fn terms(text: &str) -> Vec<&str> {
     let (mut terms, mut begin) = (Vec::new(), 0);
     let commas = text.match_indices(',').map(|(at, _)| at);
@@ -184,8 +184,8 @@ fn misfit(term: &str, space: SpaceKind, reaction: FindReaction<'_>) -> Result<Mi
     })
 }
 
-/// Parses a list of rows, counted from 1, into indices of existing rows, counted from 0, without
-/// repetition.
+/// Parses a list of rows (1-based). Returns the indices (0-based) of these rows without
+/// repetitions, after a check that the rows exist.
 fn row_list(option: &str, list: &str, rows: usize) -> Result<Vec<usize>, Refusal> {
     let numbers: Result<Vec<usize>, _> = list.split(',').map(|x| x.trim().parse()).collect();
     let Ok(numbers) = numbers else {

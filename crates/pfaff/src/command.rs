@@ -2,7 +2,7 @@
 
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 
-/// Parses one of the names of an enum; for any other text the error lists the names.
+/// Parses one of the names of an enum. For any other text, the error lists the names.
 pub fn named<T: Copy + Send + Sync + 'static>(
     all: &'static [T],
     name: fn(T) -> &'static str,

@@ -1,7 +1,7 @@
-//! Compares reactions that are not unique along a run for several choices: the choice of the run or
-//! the requested choices, the least norm, and sets of rows without reaction. Each set of joints
-//! that share cycles is treated separately, so the work grows with the redundant sets and not with
-//! the size of the mechanism.
+//! Compares, along a run, reactions that are not unique for several choices. The choices are the
+//! choice of the run or the requested choices, the least norm, and sets of rows without reaction.
+//! Each set of joints that share cycles is treated separately. Therefore the work grows with the
+//! number of redundant sets, and not with the size of the mechanism.
 //!
 //! All solutions at an instant are `λ + Z·y`. The vector λ is the solution of the run. The matrix Z
 //! belongs to the configuration at that instant, so unique components are recognised at every
@@ -31,8 +31,8 @@ const SETS_MAX: usize = 24;
 const ELIMINATIONS: usize = 6;
 const CANDIDATES: usize = 400;
 
-/// Rows without reaction must determine the free directions at least this well; otherwise their
-/// values are large only because the rows are ill-conditioned.
+/// Smallest permitted pivot of rows without reaction, relative to the largest entry of Z. With a
+/// smaller pivot, values are large only because the rows are ill-conditioned.
 const FIRM: f64 = 0.02;
 
 /// Values below this fraction of the largest free load of a set count as rounding.
@@ -42,7 +42,7 @@ const VISIBLE: f64 = 1e-9;
 /// force is free in both directions of the plane.
 const PLANE: f64 = 1e-9;
 
-/// Returns the comparisons, and sentences on the sets that are not compared. `own` contains the
+/// Returns the comparisons, and sentences about the sets that are not compared. `own` contains the
 /// names of the choices in the frames: the requested choices, or the choice of the run.
 pub(crate) fn compare(
     mechanism: &Mechanism,
@@ -169,7 +169,7 @@ impl<'a> Set<'a> {
             }
             freedom.push(instant.freedom);
         }
-        // A choice without a finite number anywhere is removed.
+        // A choice without any finite number is removed.
         choices.retain(|c| c.values.iter().flatten().flatten().any(|x| x.is_finite()));
         // Reactions without a free component at any time are unique.
         let groups = &self.part.places.groups;
@@ -251,7 +251,8 @@ impl<'a> Set<'a> {
             .zip(&mechanism.layout().groups)
             .map(|(w, g)| product(w, &z, &g.rows))
             .collect();
-        // There is no least norm if the wrenches on first bodies do not show all free directions.
+        // There is no solution of least norm if a free direction does not change the wrenches on
+        // the first bodies.
         let least = configuration.least_norm(&lambda, NormWeights::NEWTON_METRE);
         let least = least.ok();
         let without = self.eliminations.iter().map(|rows| {
@@ -261,7 +262,7 @@ impl<'a> Set<'a> {
         let others = std::iter::once(least).chain(without);
         let others = others.map(|lambda| lambda.map(|lambda| self.wrenches(&maps, &lambda)));
         let others: Vec<Option<Vec<Vec<f64>>>> = others.collect();
-        // A single choice would look like a unique number.
+        // A curve of a single choice would look like a unique number.
         let are_several = own.len() > 1 || others.iter().any(Option::is_some);
         let own = own.into_iter().map(|own| are_several.then_some(own));
         let values = own.chain(others);
@@ -300,8 +301,8 @@ impl<'a> Set<'a> {
     }
 }
 
-/// Returns the directions of the forces `W_X·Z_X·y` of each joint, and the components of its wrench
-/// that change with y; torques are divided by the size of the set (m).
+/// Returns, for each joint, the directions of the forces `W_X·Z_X·y` and the components of the
+/// wrench that change with y. Torques are divided by the size of the set (m).
 fn freedom(space: SpaceKind, free: &[Matrix], turns: &[[[f64; 3]; 3]], size: f64) -> Vec<Freedom> {
     let norm = |m: &Matrix, i: usize| m.row(i).iter().map(|x| x * x).sum::<f64>().sqrt();
     let all = |m: &Matrix, rows: Range<usize>| rows.map(|i| norm(m, i)).fold(0.0, f64::hypot);
@@ -343,8 +344,8 @@ fn freedom(space: SpaceKind, free: &[Matrix], turns: &[[[f64; 3]; 3]], size: f64
     free.iter().zip(turns).map(of).collect()
 }
 
-/// Returns the angle of a direction in which a force in the plane is free, or NaN if there is no
-/// such direction, and whether the force is also free across this direction.
+/// Returns the angle of a direction in which a force in the plane is free, and whether the force is
+/// also free across this direction. The angle is NaN if there is no such direction.
 fn direction(m: &Matrix, least: f64) -> (f64, bool) {
     let dot = |i: usize, j: usize| -> f64 {
         let terms = m.row(i).iter().zip(m.row(j));
@@ -369,9 +370,9 @@ struct Instant {
 }
 
 /// Selects sets of redundant rows that can be deleted. If enough sets exist, every row that can be
-/// deleted belongs to at least one selected set. Each step selects the set with most rows that are
-/// not yet in a selected set. Among several such sets, it selects the set with the largest pivots,
-/// because the remaining reactions are then determined best.
+/// deleted belongs to at least one selected set. Each step selects the set with the largest number
+/// of rows that are not yet in a selected set. If there are several such sets, the step selects the
+/// set with the largest pivots, because the remaining reactions are then determined best.
 fn eliminations(decision: &RankDecision) -> Vec<Vec<usize>> {
     let z = dependencies(decision);
     let all = deletions(decision, CANDIDATES).unwrap_or_default();

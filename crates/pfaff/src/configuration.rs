@@ -1,5 +1,5 @@
-//! One configuration of a scene, and all results for its reactions. Each method computes only one
-//! result.
+//! One configuration of a scene, and all results for the reactions at this configuration. Each
+//! method computes only one result.
 
 mod document;
 mod numbers;
@@ -56,8 +56,8 @@ pub struct ConfigurationAnalysis<'a> {
     pub scene: &'a Scene,
     /// The mechanism of the scene.
     pub mechanism: &'a Mechanism,
-    /// Coordinates and velocities. The velocities are empty if the rank is undecided, because no
-    /// consistent velocities are known.
+    /// Coordinates and velocities. If the rank is undecided, consistent velocities are not known,
+    /// and the list of velocities is empty.
     pub state: State,
     /// Ranks and verdicts.
     pub analysis: Arc<Analysis>,
@@ -65,7 +65,7 @@ pub struct ConfigurationAnalysis<'a> {
     results: Results,
 }
 
-/// Results that several requests use, computed on first use.
+/// Results that several requests use. They are computed on first use.
 #[derive(Default)]
 struct Results {
     freedoms: OnceLock<Freedoms>,
@@ -73,7 +73,7 @@ struct Results {
     solution: OnceLock<Solution>,
 }
 
-/// Returns a result, which is computed if it is not known.
+/// Returns a stored result. The result is computed if it is not stored yet.
 fn once<T>(
     known: &OnceLock<T>,
     compute: impl FnOnce() -> Result<T, StudyError>,
@@ -95,18 +95,18 @@ pub struct KeptAnalysis {
     pub analysis: Arc<Analysis>,
 }
 
-/// The decision on the rows of a configuration, if it was made before or is requested.
+/// The decision on the rows of a configuration. It may have been made earlier, or be requested.
 pub(crate) enum AskedRows<'r> {
     /// No decision was made or is requested.
     Any,
     /// The rows have already been decided at this configuration.
     Decided(&'r Rows),
-    /// These rows, counted from 0, are to be treated as redundant.
+    /// These rows (0-based) must be treated as redundant.
     Dropped(&'r [usize]),
 }
 
 impl<'a> ConfigurationAnalysis<'a> {
-    /// Analyses a state that satisfies the constraints at time t; `known` is the accuracy of its
+    /// Analyses a state that satisfies the constraints at time t. `known` is the accuracy of the
     /// configuration. `progress` is called with the number of joints analysed.
     pub(crate) fn new(
         scene: &'a Scene,
@@ -188,8 +188,9 @@ impl<'a> ConfigurationAnalysis<'a> {
         Ok(&self.analysis.reactions[place])
     }
 
-    /// Returns verdicts with their names: first the groups of the scene, then sums of components
-    /// such as `W3.N + W4.N`, or of whole wrenches such as `W3 + W4`.
+    /// Returns the verdicts on the groups of the scene, followed by the verdicts on sums. Each
+    /// verdict has a name. A sum contains components, such as `W3.N + W4.N`, or whole wrenches,
+    /// such as `W3 + W4`.
     ///
     /// # Errors
     /// Returns an error if a sum cannot be parsed, contains an unknown name, or involves a part
@@ -201,7 +202,7 @@ impl<'a> ConfigurationAnalysis<'a> {
             .collect()
     }
 
-    /// Returns the verdict on one such sum.
+    /// Returns the verdict on one sum, such as `W3.N + W4.N`.
     ///
     /// # Errors
     /// Returns an error if the sum cannot be parsed, contains an unknown name, or involves a part
@@ -211,8 +212,8 @@ impl<'a> ConfigurationAnalysis<'a> {
         Ok(self.questions.group(&group)?)
     }
 
-    /// Returns the unique numbers of the same groups, with their names; groups of several separate
-    /// reactions have no numbers.
+    /// Returns the unique numbers of the groups and sums of [`ConfigurationAnalysis::groups`], with
+    /// their names. Groups of several separate reactions have no numbers.
     ///
     /// # Errors
     /// Returns the errors of [`ConfigurationAnalysis::groups`], and [`StudyError::Choice`] if there
@@ -226,7 +227,7 @@ impl<'a> ConfigurationAnalysis<'a> {
         Ok(numbers.collect::<Result<_, _>>()?)
     }
 
-    /// Returns all numbers of the same groups for a given choice.
+    /// Returns all numbers of these groups and sums for a given choice.
     ///
     /// # Errors
     /// Returns the errors of [`ConfigurationAnalysis::groups`].
@@ -242,8 +243,8 @@ impl<'a> ConfigurationAnalysis<'a> {
         Ok(numbers.collect::<Result<_, _>>()?)
     }
 
-    /// Computes how strongly each unique component of a reaction depends on the data. Reactions are
-    /// left out if the rank is undecided.
+    /// Computes the sensitivity of each unique component of a reaction to the data. If the rank is
+    /// undecided, reactions are omitted.
     ///
     /// ```
     /// use pfaff::prelude::*;
@@ -277,8 +278,8 @@ impl<'a> ConfigurationAnalysis<'a> {
         Ok(self.analysis.sensitivities(self.mechanism, q, v)?)
     }
 
-    /// Computes how strongly other unique numbers of the reactions depend on the data, such as
-    /// sums, moments and components in other frames; unknown sensitivities are `None`.
+    /// Computes the sensitivity of other unique numbers of the reactions to the data, such as sums,
+    /// moments and components in other frames. Unknown sensitivities are `None`.
     ///
     /// # Errors
     /// [`StudyError::Choice`]
@@ -295,8 +296,8 @@ impl<'a> ConfigurationAnalysis<'a> {
             .sensitivities_of(self.mechanism, q, v, numbers)?)
     }
 
-    /// Whether no velocities of this configuration are known: its rank can be proved, but cannot be
-    /// used in `f64`.
+    /// Whether the velocities at this configuration are unknown. In this case, the rank can be
+    /// proved, but cannot be used in `f64`.
     fn has_no_velocities(&self) -> bool {
         self.state.v.is_empty() && self.mechanism.layout().n_v > 0
     }
@@ -311,24 +312,25 @@ impl<'a> ConfigurationAnalysis<'a> {
         })
     }
 
-    /// Computes the ranks at other configurations of the same component; `None` if none could be
-    /// reached.
+    /// Computes the ranks at other configurations of the same component. Returns `None` if no other
+    /// configuration could be reached.
     #[must_use]
     pub fn generic(&self) -> Option<Generic> {
         generic(self.mechanism, self.analysis.time, &self.state.q)
     }
 
-    /// Computes the same ranks with the verdicts on all joints and drives at these configurations.
-    /// The result contains the worst verdicts at the configurations with the smallest redundancy,
-    /// or `None` if unknown.
+    /// Computes the ranks of [`Self::generic`], and the verdicts on all joints and drives at these
+    /// configurations. The result contains the worst verdicts at the configurations with the
+    /// smallest redundancy. They are `None` if the verdicts are unknown.
     #[must_use]
     pub fn generic_with_verdicts(&self) -> Option<(Generic, Option<Vec<GenericVerdict>>)> {
         generic_with_verdicts(self.mechanism, self.analysis.time, &self.state.q)
     }
 
-    /// Determines how the motion continues at a singular configuration, at which the redundancy is
-    /// larger than elsewhere: along one branch only, along several branches, or not determined by
-    /// the constraints. Returns `None` if the configuration is not singular, or if the velocities
+    /// Determines how the motion continues at a singular configuration, that is, at a configuration
+    /// with a larger redundancy than at most other configurations. The motion may continue along
+    /// one branch or along several branches, or the constraints do not determine the continuation.
+    /// Returns `None` if the configuration is not singular. Also returns `None` if the velocities
     /// of the scene do not determine the motion, because the mechanism is at rest or has several
     /// degrees of freedom.
     ///
@@ -344,8 +346,8 @@ impl<'a> ConfigurationAnalysis<'a> {
         }
         let rank = decision.rank + decision.redundancy - generic.redundancy;
         let moves = !is_at_rest(self.mechanism, scene_size(self.mechanism, q), v);
-        // If a mechanism that is rigid elsewhere moves, it moves only through configurations with
-        // the same rank as this one.
+        // If a mechanism is rigid at other configurations, it moves only through configurations
+        // with the same rank as this configuration.
         let is_driven = self.mechanism.layout().rheonomic;
         let regular = match self.analysis.velocities - rank {
             0 if is_driven || !moves => Matrix::zeros(v.len(), 0),
@@ -363,9 +365,9 @@ impl<'a> ConfigurationAnalysis<'a> {
         Ok(Some(found))
     }
 
-    /// Whether the mechanism cannot move although its rows leave velocities free. In this case the
-    /// second-order conditions exclude all of these velocities while functions of time have
-    /// constant values. Returns `None` if the second-order conditions do not decide, and for
+    /// Whether the mechanism cannot move although the rows do not determine all velocities. In this
+    /// case, the second-order conditions exclude all free velocities, with constant values of the
+    /// functions of time. Returns `None` if the second-order conditions do not decide, and for
     /// mechanisms with too many rows for dense matrices.
     ///
     /// # Errors
@@ -380,7 +382,7 @@ impl<'a> ConfigurationAnalysis<'a> {
         }
     }
 
-    /// Whether no motion is possible: see [`Freedoms::cannot_move`].
+    /// Whether no motion is possible; see [`Freedoms::cannot_move`].
     ///
     /// # Errors
     /// [`StudyError::State`]
@@ -388,9 +390,9 @@ impl<'a> ConfigurationAnalysis<'a> {
         Ok(self.freedoms()?.cannot_move)
     }
 
-    /// Finds the sets of reactions that have no finite value at these velocities, because the loads
-    /// push along a freedom that the second-order conditions exclude. The result is empty if the
-    /// rank is undecided, and for mechanisms with too many rows for dense matrices.
+    /// Finds the sets of reactions that have no finite value at these velocities. In such a set,
+    /// the loads act along a freedom that the second-order conditions exclude. The result is empty
+    /// if the rank is undecided, and for mechanisms with too many rows for dense matrices.
     ///
     /// # Errors
     /// [`StudyError::State`]
@@ -414,8 +416,8 @@ impl<'a> ConfigurationAnalysis<'a> {
         Ok(self.questions.explanation()?)
     }
 
-    /// Counts the sets of rows that can be deleted without a change of motion; each set has as many
-    /// rows as the degree of redundancy.
+    /// Counts the sets of rows that can be deleted without a change of the motion. The number of
+    /// rows in each set is the degree of redundancy.
     ///
     /// # Errors
     /// [`EliminationError`]: the rank or one of the sets is undecided, there are too many sets, or
@@ -424,7 +426,8 @@ impl<'a> ConfigurationAnalysis<'a> {
         self.questions.eliminations()
     }
 
-    /// Returns the first of these sets, with rows counted from 0.
+    /// Returns the first sets of rows that can be deleted without a change of the motion (rows
+    /// 0-based).
     ///
     /// # Errors
     /// [`EliminationError`]: the rank or one of the sets is undecided, or a part is too large.
@@ -447,7 +450,7 @@ impl<'a> ConfigurationAnalysis<'a> {
         self.questions.make_unique(id, allowed, limits)
     }
 
-    /// Returns the verdicts of a reaction in all frames in which it is described.
+    /// Returns the verdicts on a reaction in all frames in which its components are given.
     ///
     /// # Errors
     /// [`StudyError::Request`]
@@ -472,8 +475,8 @@ impl<'a> ConfigurationAnalysis<'a> {
         Ok(self.questions.centre_of_moments(id)?)
     }
 
-    /// Returns the position of a marker (m, ground axes); `None` if there is no marker with this
-    /// name.
+    /// Returns the position of a marker (m, ground axes). Returns `None` if there is no marker with
+    /// this name.
     #[must_use]
     pub fn marker(&self, name: &str) -> Option<[f64; 3]> {
         let frames = self.mechanism.frames();
@@ -486,8 +489,8 @@ impl<'a> ConfigurationAnalysis<'a> {
         Some(frames.marker(k, &self.state.q, &still).place)
     }
 
-    /// Computes the reactions for a given choice at these velocities: unique numbers, and one of
-    /// many possible values for the other numbers.
+    /// Computes the reactions for a given choice at these velocities. The result contains the
+    /// unique numbers, and one of many possible values for each other number.
     ///
     /// # Errors
     /// [`StudyError::Choice`]: there is no such distribution, or the rank is undecided.
@@ -531,13 +534,13 @@ impl<'a> ConfigurationAnalysis<'a> {
         Ok(found)
     }
 
-    /// Returns the points about which moments of joints give way, if the scene states any.
+    /// Returns the centres of stiffness of joints, if the scene states such points.
     pub(crate) fn centres(&self) -> Centres {
         elasticity::centres(self.scene, self.mechanism, &self.state.q)
     }
 
-    /// Returns bounds of the reactions for elastic joints, from one solution. Moments give way
-    /// about the points that the scene states.
+    /// Returns bounds of the reactions for elastic joints, from one solution. The centres of
+    /// stiffness are the points that the scene states.
     ///
     /// # Errors
     /// Each number has its own error.
@@ -566,8 +569,8 @@ impl<'a> ConfigurationAnalysis<'a> {
         self.questions.permitted(solution)
     }
 
-    /// Returns the search for replacements of joints; `None` if the mechanism was not analysed as
-    /// one part.
+    /// Returns the search for replacements of joints. Returns `None` if the mechanism was not
+    /// analysed as one part.
     pub(crate) fn replacements(&self) -> Result<Option<Replacements<'_, 'a>>, StudyError> {
         Ok(self.questions.replacements()?)
     }
@@ -595,8 +598,8 @@ impl<'a> ConfigurationAnalysis<'a> {
         })
     }
 
-    /// Finds contradictions between redundant rows, the largest first. The result is empty if the
-    /// rank is undecided.
+    /// Finds contradictions between redundant rows. The largest contradiction comes first. The
+    /// result is empty if the rank is undecided.
     ///
     /// # Errors
     /// Returns an error if the configuration cannot be analysed.

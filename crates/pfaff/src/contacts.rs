@@ -21,7 +21,8 @@ use crate::error::StudyError;
 use crate::words::{Block, Cell, load_unit};
 use tips::tips;
 
-/// Describes the loads that contacts permit; `None` without one-sided joints and grip.
+/// Describes the loads that contacts permit. Returns `None` if there are neither one-sided joints
+/// nor contacts that grip.
 pub(crate) fn blocks(d: &AnalysisDocument) -> Option<Vec<Block>> {
     let answer = d.answers.contacts.as_ref()?;
     if let Some(reason) = &answer.reason {

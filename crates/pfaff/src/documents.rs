@@ -1,6 +1,6 @@
-//! Results as JSON documents: plain structs whose fields are the keys, in the order of the keys.
-//! Rows are counted from 1, as in all texts for users. JSON has no NaN and no infinity: such
-//! numbers are written as `null`.
+//! Results as JSON documents. A document is a plain struct; its fields are the keys of the
+//! document, in the same order. Rows are counted from 1, as in all texts for users. JSON has no NaN
+//! and no infinity, so such numbers are written as `null`.
 
 pub(crate) mod analysis;
 mod answers;

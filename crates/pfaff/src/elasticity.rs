@@ -1,4 +1,4 @@
-//! Requests of bounds: the joints and drives that give way, and the assumptions.
+//! Requests of bounds: the elastic joints and drives, and the assumptions.
 
 use model::reaction::ConstraintGroup;
 use model::{BodyRef, ConstraintId, Layout, Mechanism, System};
@@ -40,10 +40,11 @@ pub struct BoundsOptions {
 }
 
 impl BoundsOptions {
-    /// Returns the request with that of the scene; `None` if no bounds are requested.
+    /// Combines these options with the request of the scene. Returns `None` if no bounds are
+    /// requested.
     ///
     /// # Errors
-    /// Names the option that needs another one.
+    /// Returns an error that names the option that needs another option.
     pub(crate) fn combined(
         &self,
         of_scene: Option<&WantedBounds>,
@@ -61,10 +62,10 @@ impl BoundsOptions {
         }))
     }
 
-    /// Returns the request; `None` if no bounds are requested.
+    /// Returns the request. Returns `None` if no bounds are requested.
     ///
     /// # Errors
-    /// Names the option that needs another one.
+    /// Returns an error that names the option that needs another option.
     pub(crate) fn requested(&self) -> Result<Option<WantedBounds>, Refusal> {
         let needed = match (self.rigid.as_slice(), self.within, &self.compliance) {
             _ if self.bounds => None,
@@ -86,7 +87,7 @@ impl BoundsOptions {
     }
 }
 
-/// Returns the points about which moments of joints give way, at the coordinates q.
+/// Returns the centres of stiffness of joints at the coordinates q.
 pub(crate) fn centres(scene: &Scene, mechanism: &Mechanism, q: &[f64]) -> Centres {
     if scene.centres.is_empty() {
         return Centres::default();
@@ -155,7 +156,8 @@ pub fn elasticity(
     })
 }
 
-/// States the assumptions of bounds for these joints and drives, whose reactions are not unique.
+/// States the assumptions of bounds for these joints and drives. The reactions of these joints and
+/// drives are not unique.
 pub(crate) fn assumption(
     open: &[&ConstraintGroup],
     has_tolerance: bool,

@@ -23,14 +23,15 @@ pub(crate) const OPENING: Code = Code::new(429);
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum StudyError {
-    /// The scene is invalid; the list contains all errors with their positions.
+    /// The scene is invalid. The list contains all errors with their positions.
     #[error("{} problem(s) in the scene, the first: {}", .0.len(), .0.first().map_or(String::new(), ToString::to_string))]
     Scene(Vec<Diagnostic>),
-    /// A description made by a program is invalid; the list contains all errors.
+    /// A description made by a program is invalid. The list contains all errors.
     #[error("{} problem(s) in the description, the first: {}", .0.len(), .0.first().map_or(String::new(), ToString::to_string))]
     Build(Vec<BuildError>),
-    /// The start is a singular configuration from which no motion with its velocities is possible.
-    /// It can still be analysed by [`AssembledScene::analyse`](crate::AssembledScene::analyse).
+    /// The start is a singular configuration, and no motion with the velocities of the start is
+    /// possible. [`AssembledScene::analyse`](crate::AssembledScene::analyse) can still analyse the
+    /// start.
     #[error("{contradiction}")]
     SingularStart {
         /// The contradiction that prevents the motion.
@@ -41,12 +42,12 @@ pub enum StudyError {
     /// Neither the scene nor the caller states the end of the run.
     #[error("the scene has no `[simulate]` with `t_end`, and no end time was given")]
     NoEnd,
-    /// Choices or bounds are requested for a run that writes no reactions.
+    /// Choices or bounds are requested, but the run writes no reactions.
     #[error(
         "choices and bounds need reactions, but `[output] reactions` of the scene is false: write reactions, or omit --choose and --bounds"
     )]
     NoReactions,
-    /// The bounds that the scene requests do not fit its mechanism.
+    /// The bounds that the scene requests do not match the mechanism.
     #[error("[output] bounds: {0}")]
     Bounds(String),
     /// A plot that the scene requests has a column that does not exist, or columns of different
@@ -113,7 +114,7 @@ pub enum StudyError {
     /// A motion could not begin or continue.
     #[error(transparent)]
     Motion(#[from] MotionError),
-    /// A run stopped before its end; the results up to that time have been written.
+    /// A run stopped before its end. The results up to that time have been written.
     #[error("{error}; {}", run.kept())]
     Stopped {
         /// Cause of the stop.
@@ -229,9 +230,9 @@ fn suggestion(nearest: Option<&str>) -> String {
 }
 
 impl StudyError {
-    /// Returns the reason why a scene cannot be simulated although its start can be analysed by
-    /// [`AssembledScene::analyse`](crate::AssembledScene::analyse). Returns `None` if the start is
-    /// invalid, or if nothing prevents a motion.
+    /// Returns the reason why a scene cannot be simulated although
+    /// [`AssembledScene::analyse`](crate::AssembledScene::analyse) can analyse the start. Returns
+    /// `None` if the start is invalid, or if nothing prevents a motion.
     #[must_use]
     pub fn only_motion(&self) -> Option<String> {
         match self {
@@ -245,7 +246,7 @@ impl StudyError {
         }
     }
 
-    /// Whether the input is invalid; otherwise the error occurred during the computation.
+    /// Whether the input is invalid. Otherwise, the error occurred during the computation.
     #[must_use]
     pub fn is_input(&self) -> bool {
         match self {

@@ -1,8 +1,9 @@
 //! Parallel work in a process that was created by a fork.
 //!
-//! A forked process inherits the thread pool of its parent but not its threads: work for this pool
-//! waits forever. Programs that fork (for example with `multiprocessing` of Python) must do
-//! parallel work through [`on_own_threads`] or [`on_this_thread`], before the fork and after it.
+//! A forked process inherits the thread pool of its parent, but not the threads of the pool. Work
+//! for this pool would wait forever. Programs that fork (for example with `multiprocessing` of
+//! Python) must do parallel work through [`on_own_threads`] or [`on_this_thread`], before the fork
+//! and after it.
 
 use std::sync::atomic::{AtomicU32, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
@@ -11,13 +12,13 @@ use rayon::ThreadPool;
 
 use crate::workers::{Workers, alone};
 
-/// Identifier of the process that first did parallel work; 0 before that.
+/// Identifier of the process that first did parallel work. The value is 0 before any parallel work.
 static FIRST: AtomicU32 = AtomicU32::new(0);
 
 /// The thread pool of a forked process, with the identifier of the process.
 static POOL: Mutex<Option<(u32, Arc<ThreadPool>)>> = Mutex::new(None);
 
-/// Whether this process was forked from one that had done parallel work.
+/// Whether this process was forked from a process that had done parallel work.
 fn is_forked() -> bool {
     let own = std::process::id();
     let first = FIRST.compare_exchange(0, own, Ordering::Relaxed, Ordering::Relaxed);
@@ -55,7 +56,7 @@ pub fn on_own_threads<T: Send>(work: impl FnOnce() -> T + Send) -> T {
     }
 }
 
-/// Does the work on the calling thread; in a forked process the parallel parts also run on this
+/// Does the work on the calling thread. In a forked process, the parallel parts also run on this
 /// thread.
 ///
 /// ```

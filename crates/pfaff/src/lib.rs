@@ -2,8 +2,8 @@
 //!
 //! # Code map
 //!
-//! Contains all other crates under their own names, and computes results from the text of a scene,
-//! or from a description in code:
+//! This crate contains all other crates under their own names. It computes results from the text of
+//! a scene, or from a description in code:
 //!
 //! | module | content |
 //! | --- | --- |
@@ -96,8 +96,8 @@ pub use solvability::Numbers;
 pub use study::Study;
 pub use workers::{MOST_THREADS, start_threads, threads};
 
-/// Returns the results of two computations, which run in parallel if two threads are available, and
-/// otherwise one after the other.
+/// Returns the results of two computations. The computations run in parallel if two threads are
+/// available, and otherwise one after the other.
 pub fn both<A: Send, B: Send>(
     a: impl FnOnce() -> A + Send,
     b: impl FnOnce() -> B + Send,

@@ -37,8 +37,8 @@ struct FoundLoad {
 }
 
 impl<'m> LoadsOfRun<'m> {
-    /// Creates a sink; `None` if the mechanism has no force elements. With a directory, it writes
-    /// the table, in these units.
+    /// Creates a sink. Returns `None` if the mechanism has no force elements. With a directory, the
+    /// sink writes the table in these units.
     pub(crate) fn begin(
         directory: Option<(&OutputDirectory, Option<SceneUnits>)>,
         mechanism: &'m Mechanism,
@@ -64,7 +64,7 @@ impl<'m> LoadsOfRun<'m> {
         }))
     }
 
-    /// Returns the loads at a row, and includes them in the extreme values.
+    /// Returns the loads at a row, and updates the extreme values with these loads.
     pub(crate) fn see(&mut self, sample: &Sample<'_, '_>) -> Vec<Load> {
         let t = self.mechanism.layout().before_break(sample.t);
         let loads = self.loads.at(t, sample.q, sample.v);

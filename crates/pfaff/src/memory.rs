@@ -1,6 +1,6 @@
-//! Estimates the memory for work on a scene before it is allocated, from counted sizes and sparsity
-//! patterns only. The estimates are accurate to one fifth for scenes of many bodies (`resources.rs`
-//! in the tests of the command measures it).
+//! Estimates the memory for work on a scene before it is allocated. The estimates use only counted
+//! sizes and sparsity patterns. They are accurate to one fifth for scenes of many bodies
+//! (`resources.rs` in the tests of the command measures the accuracy).
 
 mod budget;
 #[cfg(target_os = "linux")]
@@ -15,7 +15,7 @@ use model::System;
 
 pub use budget::{Budget, Bytes};
 
-/// Bytes for each byte of a scene: its text and its parsed tables with their positions.
+/// Bytes for each byte of a scene: text and parsed tables, with the positions of their values.
 const OF_TEXT: usize = 24;
 
 /// Bytes that are always needed: the program itself and its streams.
@@ -38,14 +38,15 @@ pub fn of_reading(text: usize) -> usize {
     FLOOR + OF_TEXT.saturating_mul(text)
 }
 
-/// Bytes for each byte of a file to import: its elements.
+/// Bytes for the elements of a file to import, for each byte of the file.
 const OF_ELEMENTS: usize = 6;
 
-/// Bytes for each byte of a scene that has been imported: its model, its text, and reading it.
+/// Bytes for each byte of a scene that has been imported: for the model, for the text, and for
+/// reading the text.
 const OF_IMPORTED: usize = 40;
 
-/// Estimated memory (bytes) for importing a text of this length, without the files that it
-/// includes, and for reading a scene of this length that is made of it.
+/// Returns the estimated memory (bytes) for importing a text of length `text`, without included
+/// files, and for reading the resulting scene of length `scene`.
 #[must_use]
 pub fn of_import(text: usize, scene: usize) -> usize {
     let elements = OF_ELEMENTS.saturating_mul(text);
@@ -53,8 +54,9 @@ pub fn of_import(text: usize, scene: usize) -> usize {
 }
 
 impl AssembledScene {
-    /// Estimated memory (bytes) of the mechanism, its ranks, independent rows and verdicts on this
-    /// number of threads, in addition to the text: see [`memory_of_verdicts`].
+    /// Returns the estimated memory (bytes) of the mechanism, the ranks, the independent rows, and
+    /// the verdicts on this number of threads. The memory of the text is not included. See
+    /// [`memory_of_verdicts`].
     ///
     /// # Errors
     /// [`StudyError::Analysis`]: elimination would take too many operations for a sparse decision.

@@ -1,9 +1,9 @@
-//! `report.html` of a run, and the page of a start alone. The page is one file that opens without a
-//! network, for a reader who is familiar with the mechanism but not with the program. It contains
-//! an animation of the mechanism, verdicts as text, and curves with a cursor at the time of the
-//! animation.
+//! `report.html` of a run, and the page of a start without a run. The page is one file that opens
+//! without a network. It is for a reader who is familiar with the mechanism but not with the
+//! program. The page contains an animation of the mechanism, verdicts as text, and curves with a
+//! cursor at the time of the animation.
 //!
-//! A reaction that is not unique has no single curve: it is drawn as a band between named choices
+//! A reaction that is not unique has no single curve. The page shows a band between named choices
 //! ([`Comparison`]).
 //!
 //! | module | content |
@@ -19,10 +19,10 @@
 //! sections: title, verdict, picture, determined peaks and curves, assumptions, and annexes on
 //! request.
 //!
-//! A page computes no verdict. Its rows are those of the run; it uses additional rows only if the
-//! tables have too few for an animation. A reaction is drawn as determined only if no choice
-//! changes it during the run. Scripts and styles are inserted unchanged, and the page loads no
-//! external file.
+//! A page computes no verdict. Its rows are the rows of the run. It uses additional rows only if
+//! the tables have too few rows for an animation. A reaction is drawn as determined only if no
+//! choice changes the reaction during the run. Scripts and styles are inserted unchanged, and the
+//! page loads no external file.
 
 mod assumptions;
 mod cast;
@@ -44,7 +44,7 @@ use model::Mechanism;
 pub use comparison::{ComparedChoice, Comparison, Freedom};
 pub use run_page::{Band, DriveCurve, Origin, Plot, PlotCurve, RunPage, Shows, WrittenScene};
 
-/// Returns the number of values in a row of a recording, including those that a page shows.
+/// Returns the number of values in a row of a recording, including the values that a page shows.
 #[must_use]
 pub fn numbers_per_row(mechanism: &Mechanism) -> usize {
     data::numbers_per_row(mechanism)

@@ -1,5 +1,5 @@
-//! The largest values of the reactions during a run: of each column of the table of reactions, and
-//! of the magnitudes of force and moment.
+//! The largest values of the reactions during a run: the peak of each column of the table of
+//! reactions, and the peaks of the magnitudes of force and moment.
 
 use model::space::norm;
 use model::{ConstraintId, Mechanism, Reaction, SpaceKind, System};
@@ -28,7 +28,7 @@ pub(crate) struct PeaksOfRun {
     magnitudes: MagnitudesOfRun,
 }
 
-/// The peaks of a run, each `None` if the value is not determined at any row.
+/// The peaks of a run. A peak is `None` if the value is not determined at any row.
 #[derive(Default)]
 pub(crate) struct FoundPeaks {
     /// The columns of the table of reactions with the peaks of their values.
@@ -145,7 +145,8 @@ impl MagnitudePeak {
     }
 }
 
-/// The verdicts on these components together; `None` if all of them are zero under any load.
+/// Returns the verdicts on these components together. Returns `None` if all of these components are
+/// zero under any load.
 pub(crate) fn together(found: &ReactionStretches, names: &[&str]) -> Option<VerdictTrack> {
     let tracks = names.iter().filter_map(|name| found.component(name));
     let tracks: Vec<&VerdictTrack> = tracks.collect();

@@ -52,19 +52,21 @@ pub(crate) struct PlotRecorder<'m> {
     /// Work space for curves of the trajectory, if there are any.
     trajectory: Option<Trajectory<'m>>,
     plots: Vec<PlotColumns>,
-    /// For each row, the values of all columns of groups, then those of all curves of all plots.
+    /// For each row, the values of all columns of groups, followed by the values of all curves of
+    /// all plots.
     rows: Vec<Vec<f64>>,
 }
 
 /// Returns the trajectory whose columns can be plotted.
 fn trajectory<'m>(mechanism: &'m Mechanism, output: &Output) -> Trajectory<'m> {
     let mut more = more_columns(output);
-    // Without the table, a run computes no accelerations at its rows.
+    // Without the table of the trajectory, a run computes no accelerations at its rows.
     more.accelerations &= output.trajectory;
     Trajectory::new(mechanism, more)
 }
 
-/// Returns the columns of `reactions.csv`, empty without this table, and the groups.
+/// Returns the columns of `reactions.csv`, and the groups. Without this table, the list of columns
+/// is empty.
 fn columns_of(
     scene: &Scene,
     mechanism: &Mechanism,
@@ -78,7 +80,7 @@ fn columns_of(
     Ok((columns, groups.collect()))
 }
 
-/// Returns all columns of the tables; `reactions` are those of `reactions.csv`.
+/// Returns all columns of the tables. `reactions` contains the columns of `reactions.csv`.
 fn table_columns(
     mechanism: &Mechanism,
     output: &Output,
@@ -207,7 +209,7 @@ impl<'m> PlotRecorder<'m> {
         })
     }
 
-    /// Computes the values at a row; `reactions` are those of all joints and drives.
+    /// Computes the values at a row. `reactions` contains the reactions of all joints and drives.
     pub(crate) fn row(
         &mut self,
         sample: &mut Sample<'_, '_>,
@@ -245,8 +247,8 @@ impl<'m> PlotRecorder<'m> {
         is_wanted.then(|| sample.acceleration()).transpose()
     }
 
-    /// Returns the curve with this index in the rows. Reactions are given with their verdicts;
-    /// values that the model does not determine are NaN.
+    /// Returns the curve with this index in the rows. The curve of a reaction has a verdict. Values
+    /// that the model does not determine are NaN.
     fn curve(
         &self,
         (at, name): (usize, String),

@@ -1,4 +1,4 @@
-//! The names needed by a program that builds, analyses and moves a mechanism:
+//! The names that a program needs to build, analyse and simulate a mechanism:
 //! `use pfaff::prelude::*;`. The other joints and forces are in [`joints`], and the documents in
 //! [`crate::documents`].
 

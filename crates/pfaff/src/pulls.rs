@@ -1,5 +1,5 @@
-//! Contacts that pull although the scene does not describe them as one-sided: one warning for a run
-//! or a configuration.
+//! Contacts that pull although the scene does not describe them as one-sided. There is one warning
+//! for a run or a configuration.
 
 use std::fmt;
 use std::ops::ControlFlow;
@@ -24,7 +24,7 @@ const PULLS: Code = Code::new(186);
 /// Largest number of joints that the warning names.
 const NAMED: usize = 4;
 
-/// Returns the contacts that are examined; `None` if the warning is suppressed.
+/// Returns the contacts that are examined. Returns `None` if the warning is suppressed.
 fn examined(scene: &Scene, mechanism: &Mechanism) -> Option<TwoSidedContacts> {
     let is_silenced = scene.is_silenced(PULLS);
     TwoSidedContacts::of(mechanism).filter(|_| !is_silenced)
@@ -34,13 +34,14 @@ fn examined(scene: &Scene, mechanism: &Mechanism) -> Option<TwoSidedContacts> {
 pub(crate) struct PullsOfRun<'m> {
     mechanism: &'m Mechanism,
     contacts: TwoSidedContacts,
-    /// For each contact, 1 while it pulls, and the force with which it pulls (N).
+    /// For each contact, two values: 1 while the contact pulls, and the force with which the
+    /// contact pulls (N).
     peaks: PeakRecorder,
     rows: TableRows,
 }
 
 impl<'m> PullsOfRun<'m> {
-    /// Creates a sink; `None` if there is nothing to examine.
+    /// Creates a sink. Returns `None` if there is nothing to examine.
     pub(crate) fn begin(scene: &Scene, mechanism: &'m Mechanism, rows: TableRows) -> Option<Self> {
         let contacts = examined(scene, mechanism)?;
         let cuts = &mechanism.layout().break_times;
@@ -52,7 +53,8 @@ impl<'m> PullsOfRun<'m> {
         })
     }
 
-    /// Returns the contacts that pull where the force is determined, in the order of time.
+    /// Returns the contacts that pull, with the values at times at which the force is determined.
+    /// The contacts are in the order of time.
     pub(crate) fn found(&self, stretches: Option<&Stretches>) -> Vec<PullDocument> {
         let Some(stretches) = stretches else {
             return Vec::new();
@@ -114,7 +116,7 @@ impl RowSink for PullsOfRun<'_> {
 }
 
 impl ConfigurationAnalysis<'_> {
-    /// Returns the contacts that pull here with a determined force.
+    /// Returns the contacts that pull at this configuration with a determined force.
     pub(crate) fn pulls(&self) -> Vec<PullDocument> {
         let Some(contacts) = examined(self.scene, self.mechanism) else {
             return Vec::new();
@@ -166,7 +168,7 @@ pub(crate) struct PullWarning<'p> {
 }
 
 impl<'p> PullWarning<'p> {
-    /// Creates the warning; `None` if no contact pulls.
+    /// Creates the warning. Returns `None` if no contact pulls.
     pub(crate) fn new(pulls: &'p [PullDocument], over: PullTimes) -> Option<Self> {
         let [first, others @ ..] = pulls else {
             return None;
@@ -205,7 +207,8 @@ impl<'p> PullWarning<'p> {
         format!("warning[{PULLS}]: ")
     }
 
-    /// Returns the warning with the positions of its joints; `None` if the scene has no text.
+    /// Returns the warning with the positions of the joints. Returns `None` if the scene has no
+    /// text.
     pub(crate) fn located(&self, scene: &Scene) -> Option<Diagnostic> {
         let joints = self.pulls.iter().map(|pull| pull.joint.as_str());
         scene.warning_about(PULLS, joints, (&self.message, &self.help))

@@ -1,6 +1,6 @@
-//! The definition of a question about scenes. A question has options and a subject; its answer is a
-//! document, a text and files. Each question is one folder of [`crate::questions`]; the callers
-//! (the command and Python) do not refer to any question by name.
+//! The definition of a question about scenes. A question has options and a subject. The answer is a
+//! document, a text and files. Each question is one folder of [`crate::questions`]. The callers
+//! (the command and Python) do not contain names of questions.
 
 use std::num::NonZeroUsize;
 use std::sync::LazyLock;
@@ -14,14 +14,14 @@ use crate::refusal::{Refusal, json};
 use crate::start::Start;
 use crate::words::{self, Block, SceneUnits, UnitSystem, count};
 
-/// A question; its fields are the options. The comments of the fields are also the help of the
+/// A question. Its fields are the options. The comments of the fields are also the help of the
 /// command.
 pub trait Question: for<'d> Deserialize<'d> + Default {
     /// Name of the subcommand and of the Python method.
     const NAME: &'static str;
     /// JSON schema of the answer, written by `cargo xtask questions`.
     const SCHEMA: &'static str;
-    /// The files of an answer; `None` if it has none.
+    /// The files of an answer. `None` if the answer has no files.
     const OUTPUT: Option<Output> = None;
     /// Subject of the question.
     type Subject<'s>: Subject<'s>;
@@ -41,12 +41,12 @@ pub trait Question: for<'d> Deserialize<'d> + Default {
 
 /// The subject of a question: one scene or several scenes.
 pub trait Subject<'s>: Sized {
-    /// Names of the scenes in help texts; the last name may represent several scenes.
+    /// Names of the scenes in help texts. The last name may represent several scenes.
     const SCENES: &'static [&'static str];
     /// Smallest and largest number of scenes.
     const COUNT: (usize, usize) = (Self::SCENES.len(), Self::SCENES.len());
 
-    /// Builds the subject from these scenes; `None` if their number does not fit.
+    /// Builds the subject from these scenes. Returns `None` if the number of scenes is wrong.
     fn of(scenes: &[&'s Start<'s>]) -> Option<Self>;
 }
 
@@ -89,7 +89,7 @@ impl<'s> Subject<'s> for Vec<&'s Start<'s>> {
     }
 }
 
-/// An answer. It owns all data that its text and files need, so that it can outlive the thread and
+/// An answer. It owns all data of its text and files, so that the answer can outlive the thread and
 /// the scene. The fields of an answer are the keys of its JSON document, in the same order.
 pub trait Answer: Serialize + Send + 'static {
     /// Returns the answer as text.
@@ -108,7 +108,7 @@ pub trait Answer: Serialize + Send + 'static {
     /// Writes the files of the answer, if it has any.
     ///
     /// # Errors
-    /// Returns an error if one of them cannot be written.
+    /// Returns an error if a file cannot be written.
     fn files(&self, _place: &mut dyn Place) -> Result<(), Refusal> {
         Ok(())
     }
@@ -138,7 +138,7 @@ pub enum Ending {
 /// Code of a computation that was interrupted on request.
 pub const INTERRUPTED: Code = Code::new(8);
 
-/// Message if a request has ended a computation without results.
+/// Message for a computation that a request has ended before there were results.
 pub const NOTHING_WRITTEN: &str = "interrupted; nothing was written";
 
 impl Ending {
@@ -184,7 +184,7 @@ pub struct Output {
 }
 
 impl Output {
-    /// Whether files are written while the answer is computed; then the caller must give a
+    /// Whether files are written while the answer is computed. In this case, the caller must give a
     /// directory.
     #[must_use]
     pub fn is_streamed(&self) -> bool {
@@ -201,8 +201,8 @@ pub enum Writing {
     Meanwhile {
         /// Whether several processes write into the directory at the same time.
         shared: bool,
-        /// Called if the process has to end immediately; returns a text on the saved results. The
-        /// argument of the callback is the name that [`Progress::Writing`] announced.
+        /// Callback for the case that the process must end immediately. It returns a text about the
+        /// saved results. The second argument is the name that [`Progress::Writing`] announced.
         cut: fn(&OutputDirectory, Option<&str>) -> String,
     },
 }
@@ -229,9 +229,9 @@ pub struct Control<'c> {
     pub wants_files: bool,
     /// Directory for files that are written during the computation.
     pub directory: Option<&'c OutputDirectory>,
-    /// Name, version and time of the caller; pages print them.
+    /// Name, version and time of the caller. Pages print this information.
     pub provenance: &'c Provenance,
-    /// Number of threads; `None` means one for each core.
+    /// Number of threads. `None` means one thread for each core.
     pub threads: Option<NonZeroUsize>,
 }
 
@@ -273,7 +273,7 @@ pub enum Progress {
     Runs(u64, u64, String),
     /// The work along a motion, the time that it has reached, and the last time (s).
     Motion(&'static str, f64, f64),
-    /// From now on, results of the scene with this name are written.
+    /// The results that are written from now on belong to the scene with this name.
     Writing(String),
 }
 
@@ -308,13 +308,14 @@ impl<Q: Question> AnyQuestion for Q {
 
 /// An answer of any type.
 pub trait AnyAnswer: Send {
-    /// Returns the answer as text, with details and in SI units if they are requested.
+    /// Returns the answer as text, with details if they are requested, and in SI units if they are
+    /// requested.
     fn text(&self, is_verbose: bool, is_si: bool) -> String;
 
     /// See [`Answer::ending`].
     fn ending(&self) -> Ending;
 
-    /// Returns the document as text; in a partial document `code` and `error` come first.
+    /// Returns the document as text. In a partial document, `code` and `error` come first.
     ///
     /// # Errors
     /// Returns an error if the document cannot be written.
@@ -323,7 +324,7 @@ pub trait AnyAnswer: Send {
     /// See [`Answer::files`].
     ///
     /// # Errors
-    /// Returns an error if one of them cannot be written.
+    /// Returns an error if a file cannot be written.
     fn files(&self, place: &mut dyn Place) -> Result<(), Refusal>;
 
     /// See [`Answer::written`].

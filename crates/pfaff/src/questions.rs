@@ -1,4 +1,4 @@
-//! All questions, each in a folder of its own: options, computation, answer and text.
+//! All questions. Each question has a folder with its options, computation, answer and text.
 
 pub mod analyze;
 pub mod cases;
@@ -129,7 +129,8 @@ impl Questions {
     /// ```
     ///
     /// # Errors
-    /// Returns an error if there is no such question, or if it has no such options.
+    /// Returns an error if there is no question with this name, or if the question does not have
+    /// these options.
     pub fn read(name: &str, options: &str) -> Result<Self, Refusal> {
         let known = || Self::FACTS.iter().map(|facts| facts.name);
         if !known().any(|known| known == name) {

@@ -1,5 +1,5 @@
-//! The reason why there is no answer, as the command and other programs report it. The form is a
-//! text, with the lines of the scene that contain the error, or a document.
+//! The reason why there is no answer, in the form in which the command and other programs report
+//! it. The form is a document, or a text that contains the lines of the scene with the error.
 
 #[cfg(feature = "messages")]
 mod render;
@@ -34,19 +34,20 @@ pub enum Refusal {
 }
 
 impl Refusal {
-    /// Wrong input; the message states how to correct it.
+    /// Creates a refusal of wrong input. The message states how to correct the input.
     #[must_use]
     pub fn input(message: String) -> Self {
         Self::Input(const { Code::new(1) }, message)
     }
 
-    /// A computation that stopped, with the reason.
+    /// Creates a refusal for a computation that stopped, with the reason.
     #[must_use]
     pub fn stopped(message: String) -> Self {
         Self::Stopped(const { Code::new(9) }, message)
     }
 
-    /// Converts an error of a scene with this name and text, to which its positions refer.
+    /// Converts an error of a scene with this name and this text. The positions of the error refer
+    /// to the text.
     ///
     /// ```
     /// use pfaff::Study;
@@ -77,7 +78,7 @@ impl Refusal {
         refusal.coded(code)
     }
 
-    /// Returns the same refusal with another code; errors of a scene have codes of their own.
+    /// Returns the same refusal with another code. Errors of a scene keep their own codes.
     #[must_use]
     pub fn coded(self, code: Code) -> Self {
         match self {
@@ -87,7 +88,7 @@ impl Refusal {
         }
     }
 
-    /// Returns the code of the refusal; a scene without errors has no code.
+    /// Returns the code of the refusal. A refused scene without errors has no code.
     #[must_use]
     pub fn code(&self) -> Option<Code> {
         match self {
@@ -121,7 +122,7 @@ impl Refusal {
         }
     }
 
-    /// Returns the refusal as a document: `error` is one line; `problems` contains the positions of
+    /// Returns the refusal as a document. `error` is one line. `problems` contains the positions of
     /// errors in a scene, if there are any.
     #[must_use]
     pub fn document(&self) -> RefusalDocument<'_, Diagnostic> {
@@ -150,8 +151,8 @@ impl From<import::Refusal> for Refusal {
 }
 
 impl From<FileError> for Refusal {
-    /// Converts the error of a file that was not written, because of its path, or because writing
-    /// failed.
+    /// Converts the error of a file that was not written. The cause is the path, or a failed write
+    /// operation.
     fn from(error: FileError) -> Self {
         let refusal = if error.is_place() {
             Self::input(error.to_string())
@@ -198,7 +199,7 @@ pub fn json(document: &impl Serialize) -> Result<String, Refusal> {
     Ok(String::from_utf8_lossy(&out).into_owned())
 }
 
-/// Returns the first problem, and the number of the others.
+/// Returns the first problem, and the number of the other problems.
 fn in_one_line(diagnostics: &[Diagnostic]) -> String {
     match diagnostics {
         [] => String::new(),
@@ -207,9 +208,9 @@ fn in_one_line(diagnostics: &[Diagnostic]) -> String {
     }
 }
 
-/// Returns a text without characters that a terminal interprets instead of showing them: control
-/// characters and characters that change the direction of writing. Each of these characters is
-/// replaced by a character of the same length, so that positions in the text remain valid.
+/// Returns a text without characters that a terminal interprets and does not show. These are
+/// control characters and characters that change the direction of writing. Each of these characters
+/// is replaced by a character of the same length, so that positions in the text remain valid.
 #[must_use]
 pub fn visible(text: &str) -> Cow<'_, str> {
     let is_obeyed = |c: char| {

@@ -1,6 +1,6 @@
-//! Builds `report.html` of a run: collects data during the motion, and analyses the start
-//! afterwards. Data that the scene does not request are not computed; the page shows the available
-//! ones.
+//! Builds `report.html` of a run. This module collects data during the motion, and analyses the
+//! start afterwards. Data that the scene does not request are not computed. The page shows all
+//! available data.
 
 use std::ops::ControlFlow;
 
@@ -26,8 +26,8 @@ use crate::questions::analyze::remedies::RemedyDocument;
 use crate::rows::{RowFault, RowSink};
 use crate::words::scene_units;
 
-/// Number of non-unique reactions for which the page lists deletions that would make them unique,
-/// and number of sets tried for each.
+/// The page lists deletions that would make non-unique reactions unique. These constants are the
+/// number of such reactions, and the number of sets tried for each reaction.
 const HINTS: usize = 8;
 const HINT_TRIALS: usize = 2_000;
 

@@ -10,16 +10,17 @@ use solvability::Stretches;
 
 use crate::error::StudyError;
 
-/// Receives the output rows of a run while it is computed, and the verdicts after its end. Until
-/// the run ends, the values of nonunique reactions belong to one of the possible solutions.
+/// Receives the output rows of a run during the run, and the verdicts at the end. Until the run
+/// ends, the values of nonunique reactions belong to one of the possible solutions.
 pub trait RowSink {
     /// Receives a row. A quantity of the sample is computed at the first access.
     ///
     /// # Errors
-    /// [`RowFault`]: the row cannot be computed or written; the run ends.
+    /// [`RowFault`]: the row cannot be computed or written. The run then ends.
     fn row(&mut self, sample: &mut Sample<'_, '_>) -> Result<ControlFlow<()>, RowFault>;
 
-    /// Receives the verdicts of the run, for any ending; `None` if no reactions were requested.
+    /// Receives the verdicts of the run, for any kind of ending. The verdicts are `None` if no
+    /// reactions were requested.
     ///
     /// # Errors
     /// [`StudyError::File`], [`StudyError::Table`]: the final contents cannot be written.
@@ -64,7 +65,7 @@ pub(crate) struct RunEnd {
 }
 
 impl RunEnd {
-    /// Returns how the run ended; a run whose rows could not be written is partial.
+    /// Returns how the run ended. A run is partial if its rows could not be written.
     pub(crate) fn ending(&self) -> Ending<'_> {
         match (&self.error, self.interrupted || self.unwritten.is_some()) {
             (Some(error), _) => Ending::Stopped(error),
@@ -74,9 +75,9 @@ impl RunEnd {
     }
 }
 
-/// Runs a plan and passes its rows to sinks. `watch` is called with the time of each row, or of
-/// each step if no rows are requested, and may end the run. `stop` is called at each evaluation and
-/// may also end the run.
+/// Runs a plan and passes the rows to sinks. `watch` is called with the time of each row and may
+/// end the run. If no rows are requested, `watch` is called with the time of each step. `stop` is
+/// called at each evaluation and may also end the run.
 ///
 /// # Errors
 /// - [`StudyError::Motion`]: the run could not begin.
@@ -115,7 +116,7 @@ pub(crate) fn run_into(
         Ok(note(each(sample.t)))
     });
     let (summary, error) = match outcome {
-        // Files of an earlier run are not replaced if there is no row.
+        // If there is no row, files of an earlier run are not replaced.
         Ok(_) if rows == 0 => return Err(StudyError::Interrupted),
         Err(failure) if rows == 0 => return Err(failure.error.into()),
         Ok(summary) => (summary, None),

@@ -1,4 +1,4 @@
-//! Options of a run that replace those of its scene.
+//! Options of a run that replace the options of the scene.
 
 use std::num::NonZeroUsize;
 
@@ -78,7 +78,7 @@ impl RunOptions {
     }
 }
 
-/// Removes the position from a JSON error: the caller has not written the JSON text.
+/// Removes the position from a JSON error, because the caller has not written the JSON text.
 pub(crate) fn without_place(error: &str) -> &str {
     error
         .rsplit_once(" at line ")
@@ -87,7 +87,7 @@ pub(crate) fn without_place(error: &str) -> &str {
 
 pub(crate) const NO_ROW: &str = "row 0 does not exist: rows are counted from 1";
 
-/// Converts rows of a user, who counts from 1, to rows counted from 0.
+/// Converts rows given by a user (1-based) to rows counted from 0.
 pub(crate) fn rows<'d, D: Deserializer<'d>>(reader: D) -> Result<Option<Vec<usize>>, D::Error> {
     let Some(rows) = Option::<Vec<usize>>::deserialize(reader)? else {
         return Ok(None);

@@ -55,7 +55,7 @@ fn add_head(document: &mut Schema) {
     }
 }
 
-/// JSON has no NaN and no infinity: any number of a document may be `null`.
+/// JSON has no NaN and no infinity, so any number of a document may be `null`.
 struct Unknown;
 
 impl Transform for Unknown {

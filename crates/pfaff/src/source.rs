@@ -10,8 +10,8 @@ use scene::{LoadCase, Scene, Setting, nearest};
 
 use crate::refusal::Refusal;
 
-/// Largest scene that is read (bytes): ten times the size of a scene with a hundred thousand
-/// bodies. The limit prevents an endless device from filling the memory.
+/// Size of the largest scene that is read (bytes). It is ten times the size of a scene with a
+/// hundred thousand bodies. Because of this limit, an endless device cannot fill the memory.
 pub const LARGEST: u64 = 1 << 28;
 
 const UNREADABLE: Code = Code::new(2);
@@ -23,7 +23,7 @@ const LOOKED_AT: usize = 10_000;
 ///
 /// # Errors
 /// Returns an error if the file cannot be read, is too large for a scene, or is not UTF-8. For an
-/// unreadable file the error suggests a file in the same directory with a similar name.
+/// unreadable file, the error suggests a file in the same directory with a similar name.
 pub fn of_file(path: &Path) -> Result<(String, String), Refusal> {
     let name = path.display().to_string();
     let bytes = File::open(path).and_then(bounded);
@@ -53,8 +53,8 @@ fn text(name: &str, bytes: Vec<u8>) -> Result<String, Refusal> {
     })
 }
 
-/// Builds the error for a file that cannot be read; it suggests a scene in the same directory with
-/// a similar name.
+/// Builds the error for a file that cannot be read. The error suggests a scene in the same
+/// directory with a similar name.
 #[must_use]
 pub fn unreadable(path: &Path, e: &io::Error) -> Refusal {
     let near = match e.kind() {
@@ -71,7 +71,8 @@ fn unread(name: &str, e: &io::Error, advice: &str) -> Refusal {
     Refusal::input(format!("cannot read `{name}`: {e}{advice}")).coded(UNREADABLE)
 }
 
-/// Finds the scene in the directory of a path whose name is most similar to that of the path.
+/// Finds a scene in the directory of a path. The name of this scene is the name most similar to the
+/// file name of the path.
 fn scene_beside(path: &Path) -> Option<PathBuf> {
     let directory = match path.parent() {
         Some(parent) if parent.as_os_str() != "" => parent,
@@ -88,14 +89,14 @@ fn scene_beside(path: &Path) -> Option<PathBuf> {
     Some(path.with_file_name(format!("{near}.toml")))
 }
 
-/// Reads all bytes, but at most one more than a scene may have.
+/// Reads all bytes, but at most one byte more than the limit for a scene.
 fn bounded(reader: impl Read) -> io::Result<Vec<u8>> {
     let mut bytes = Vec::new();
     reader.take(LARGEST + 1).read_to_end(&mut bytes)?;
     Ok(bytes)
 }
 
-/// Returns line and column just after the last valid character of a text, both counted from 1.
+/// Returns the line and the column after the last valid character of a text (both 1-based).
 fn end_of(text: &[u8]) -> (usize, usize) {
     let text = String::from_utf8_lossy(text);
     let last = text.rsplit('\n').next().unwrap_or_default();
@@ -103,7 +104,7 @@ fn end_of(text: &[u8]) -> (usize, usize) {
 }
 
 /// Returns the text of a scene with the values of one of its load cases. A text that is not a valid
-/// scene remains unchanged, because the reader of scenes reports its errors.
+/// scene remains unchanged, because the reader of scenes reports the errors of the text.
 ///
 /// # Errors
 /// [`Refusal::Input`]: the scene has no such case.
@@ -114,11 +115,11 @@ pub fn with_case(text: String, case: &str, registry: &Registry) -> Result<String
     }
 }
 
-/// Returns the load cases of a scene with these names, in the order of the scene; all cases if
-/// there are no names.
+/// Returns the load cases of a scene with these names, in the order of the scene. If there are no
+/// names, returns all cases.
 ///
 /// # Errors
-/// [`Refusal::Input`]: the scene has no load cases, or not these.
+/// [`Refusal::Input`]: the scene has no load cases, or a name does not exist.
 pub fn cases<'s>(scene: &'s Scene, names: &[String]) -> Result<Vec<&'s LoadCase>, Refusal> {
     for name in names {
         case_of(scene, name)?;
@@ -133,7 +134,7 @@ pub fn cases<'s>(scene: &'s Scene, names: &[String]) -> Result<Vec<&'s LoadCase>
 /// Returns the text of a scene with the values of a load case.
 ///
 /// # Errors
-/// [`Refusal::Input`]: the values do not fit the text.
+/// [`Refusal::Input`]: the values cannot be written to the text.
 pub fn with_values_of(text: &str, case: &LoadCase) -> Result<String, Refusal> {
     let replaced = Setting::replaced(text, &case.settings);
     replaced.map_err(|e| Refusal::input(format!("case `{}`: {e}", case.name)).coded(e.code()))

@@ -1,6 +1,6 @@
-//! The difference between the motions for two choices of rows. Within a stated tolerance the motion
-//! depends on the choice of independent rows, by about as much as the violations of the redundant
-//! rows.
+//! The difference between the motions for two choices of rows. Within a stated tolerance, the
+//! motion depends on the choice of independent rows. The difference has about the size of the
+//! violations of the redundant rows.
 
 use std::ops::ControlFlow;
 
@@ -11,7 +11,7 @@ use dynamics::{MotionError, OutputRequest, Plan, PreparedMechanism, Sample, Stop
 
 use crate::rows::{RowFault, RowSink, RunEnd};
 
-/// Configurations of a run at its output rows, if redundant rows of it may be violated.
+/// Configurations of a run at its output rows. They are recorded if redundant rows may be violated.
 pub(crate) struct Path {
     may_miss: bool,
     rows: Vec<Vec<f64>>,
@@ -47,9 +47,10 @@ impl Path {
         }
     }
 
-    /// Compares these configurations with those of a run on other rows. The second run keeps each
-    /// violated row and instead deletes the row with the largest coefficient in the same
-    /// dependency. Returns `None` if no row is violated, or if no other rows can be deleted.
+    /// Compares these configurations with the configurations of a run on other rows. The second run
+    /// keeps each violated row. In its place, it deletes the row with the largest coefficient in
+    /// the same dependency. Returns `None` if no row is violated, or if no other rows can be
+    /// deleted.
     fn spread(
         &self,
         plan: &Plan<'_>,

@@ -1,5 +1,5 @@
-//! The text of a scene, with results that are computed at the first access: the assembled scene,
-//! and the analysed start.
+//! The text of a scene, with the assembled scene and the analysed start. These results are computed
+//! at the first access.
 
 use std::sync::{Arc, Mutex, MutexGuard, OnceLock, PoisonError};
 
@@ -22,16 +22,16 @@ pub struct Start<'r> {
     pub name: String,
     /// Text of the scene.
     pub text: String,
-    /// The load case whose values the text has.
+    /// The load case whose values the text contains.
     pub case: Option<String>,
     /// Tolerance that takes precedence over the tolerance that the scene states.
     pub tolerance: Tolerance,
     /// The joints and forces that the scene may use.
     pub registry: &'r Registry,
-    /// Limit of the memory for its computations.
+    /// Limit of the memory for computations with this scene.
     pub budget: Budget,
     judged: OnceLock<Arc<JudgedStart>>,
-    /// The last computed verdicts, with their time (s).
+    /// The verdicts that were computed last, with their time (s).
     verdicts: Mutex<Option<(f64, KeptAnalysis)>>,
 }
 
@@ -81,7 +81,8 @@ impl<'r> Start<'r> {
         self.budget.assembled(of, self.registry, self.tolerance)
     }
 
-    /// Finds a consistent start and chooses rows, with options that replace those of the scene.
+    /// Finds a consistent start and chooses rows. The options `with` replace the options of the
+    /// scene.
     ///
     /// # Errors
     /// Returns the errors of [`Self::assembled`] and [`AssembledScene::prepare`].
@@ -106,8 +107,8 @@ impl<'r> Start<'r> {
         })
     }
 
-    /// Analyses the start, also if no motion can begin at the start, with redundant rows that may
-    /// differ from those of the scene.
+    /// Analyses the start, also if no motion can begin at the start. The redundant rows may differ
+    /// from the rows that the scene states.
     ///
     /// # Errors
     /// Returns the errors of [`Self::assembled`], and an error if there is no start.
@@ -142,23 +143,24 @@ impl<'r> Start<'r> {
     /// Returns the errors of [`Self::judged_with`].
     pub fn judged(&self, control: &Control<'_>) -> Result<Arc<JudgedStart>, Refusal> {
         if let Some(judged) = self.judged.get() {
-            // A memory limit rejects the same scenes whether or not results are stored.
+            // Stored results must not change which scenes a memory limit rejects.
             if self.budget.limit.is_some() {
                 let of = (self.name.as_str(), self.text.as_str());
                 self.budget.allow_scene(of, judged.parts().1)?;
             }
             return Ok(Arc::clone(judged));
         }
-        // Two threads may both compute the start; they obtain the same result.
+        // Two threads may both compute the start. They obtain the same result.
         let judged = Arc::new(self.judged_with(&RunOptions::default(), control)?);
         Ok(Arc::clone(self.judged.get_or_init(|| judged)))
     }
 
-    /// Returns the verdicts on [`Self::judged`] at a time of its motion (s). The last verdicts are
-    /// stored; `progress` is called with the number of joints analysed so far.
+    /// Returns the verdicts on [`Self::judged`] at a time of the motion (s). The verdicts computed
+    /// last are stored. `progress` is called with the number of joints analysed so far.
     ///
     /// # Errors
-    /// Returns an error if the motion does not reach that time, or if C cannot be analysed there.
+    /// Returns an error if the motion does not reach that time, or if C cannot be analysed at that
+    /// time.
     pub fn configuration<'j>(
         &self,
         judged: &'j JudgedStart,
@@ -199,11 +201,11 @@ impl<'r> Start<'r> {
 pub enum JudgedStart {
     /// The mechanism can move.
     Moves(Arc<Study>),
-    /// The start can be analysed, but no motion begins at it.
+    /// The start can be analysed, but no motion begins at the start.
     Stands(Box<Standing>),
 }
 
-/// A start that can be analysed, but at which no motion begins.
+/// A start that can be analysed, although no motion begins at this start.
 pub struct Standing {
     /// The assembled scene.
     pub assembled: AssembledScene,
@@ -228,7 +230,7 @@ impl JudgedStart {
     /// Returns the study, if the mechanism can move.
     ///
     /// # Errors
-    /// Returns the reason why it cannot move.
+    /// Returns the reason why the mechanism cannot move.
     pub fn study(&self) -> Result<&Arc<Study>, Refusal> {
         match self {
             Self::Moves(study) => Ok(study),

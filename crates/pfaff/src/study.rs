@@ -1,5 +1,5 @@
 //! All stages for a scene, from its text to its results: read, assemble, decide, simulate, write.
-//! The functions correspond to the commands without printing.
+//! The functions correspond to the commands, but print nothing.
 
 use std::ops::ControlFlow;
 use std::sync::Mutex;
@@ -54,15 +54,16 @@ use crate::tables_of_run::{
 };
 use crate::within::missed;
 
-/// Largest number of rows of a mechanism for which an animation has additional rows between those
-/// of the tables.
+/// Largest number of rows of a mechanism for which an animation has additional output rows between
+/// the rows of the tables.
 const PICTURED_ROWS: usize = 600;
 
 /// Largest number of rows of a mechanism for which the program tests whether a motion begins.
 const BEGUN_ROWS: usize = 2000;
 
-/// After a search on the constraints, a start with a violation below this fraction of the size is
-/// close enough to an assembled start: the constraints are dependent there.
+/// Largest violation, as a fraction of the size, with which a start after a search on the
+/// constraints counts as close to an assembled start. The violation remains because the constraints
+/// are dependent at this start.
 const REACHED: f64 = 1e-6;
 
 /// Largest number of searches for an equilibrium after a search from a singular start.
@@ -75,17 +76,17 @@ pub struct Study {
     pub scene: Scene,
     /// The start and the independent rows.
     pub prepared: PreparedMechanism,
-    /// Options of a run; `None` if neither the scene nor the caller states the end of the run.
+    /// Options of a run. `None` if neither the scene nor the caller states the end of the run.
     pub options: Option<MotionOptions>,
-    /// Choices that give values to the numbers that the model does not determine, in a run; without
-    /// a choice, the multipliers of the redundant rows are zero.
+    /// Choices for a run. They give values to the numbers that the model does not determine.
+    /// Without a choice, the multipliers of the redundant rows are zero.
     pub choices: Vec<Choice>,
-    /// Elastic joints for which a run computes bounds of the reactions that the model does not
-    /// determine; without them, no bounds are computed.
+    /// Elastic joints. With these joints, a run computes bounds of the reactions that the model
+    /// does not determine. Without elastic joints, no bounds are computed.
     pub bounds: Option<Elasticity>,
     /// Joints of other types that make reactions unique, for the report.
     pub remedies: Vec<RemedyDocument>,
-    /// The load case whose values the scene has.
+    /// The load case whose values the scene contains.
     pub case: Option<String>,
 }
 
@@ -99,13 +100,14 @@ pub struct EndedRun {
     pub stopped: Option<MotionError>,
     /// Verdicts at the start, in the order of the rows of C.
     pub verdicts: Vec<ReactionVerdict>,
-    /// Verdicts of the run; `None` if no reactions were requested.
+    /// Verdicts of the run. `None` if no reactions were requested.
     pub stretches: Option<Stretches>,
-    /// The columns of reactions of all joints and drives, then the columns of the groups of the
-    /// scene.
+    /// The columns of the reactions of all joints and drives, followed by the columns of the groups
+    /// of the scene.
     pub columns: Vec<ReactionColumn>,
-    /// The smallest and the largest value of each column at the rows, with their times (s), NaN
-    /// without bounds; empty if no bounds were requested or no rows are redundant.
+    /// The times of the rows (s), each with the smallest and the largest value of each column.
+    /// Values without bounds are NaN. The list is empty if no bounds were requested or no rows are
+    /// redundant.
     pub bounds: Vec<(f64, Vec<[f64; 2]>)>,
 }
 
@@ -117,15 +119,16 @@ pub struct ChosenNumbers {
     pub reactions: ChosenValues<Reaction>,
     /// All numbers of the groups of the scene, group by group.
     pub groups: ChosenValues<f64>,
-    /// The same values for each choice of [`Study::choices`] and then of
-    /// [`OutputRequest::choices`]; NaN if a choice selects no solution.
+    /// The same values for each choice of [`Study::choices`], followed by the choices of
+    /// [`OutputRequest::choices`]. The values are NaN if a choice selects no solution.
     pub choices: Vec<ChosenNumbers>,
-    /// Loads of force elements, which do not depend on a choice; empty in [`Self::choices`].
+    /// Loads of force elements. They do not depend on a choice, and the list is empty in
+    /// [`Self::choices`].
     pub loads: Vec<Load>,
 }
 
 impl Study {
-    /// Reads a scene, finds its consistent start and chooses rows; `name` is the file name in
+    /// Reads a scene, finds a consistent start and chooses rows. `name` is the file name in
     /// messages.
     ///
     /// # Errors
@@ -140,7 +143,8 @@ impl Study {
         AssembledScene::read(name, text, registry)?.prepare(overrides)
     }
 
-    /// Like [`Self::read`], for a scene made by a program, or for a description without a scene.
+    /// Works like [`Self::read`], for a scene made by a program, or for a description without a
+    /// scene.
     ///
     /// ```
     /// use pfaff::prelude::*;
@@ -166,12 +170,13 @@ impl Study {
         AssembledScene::build(scene)?.prepare(&RunOptions::default())
     }
 
-    /// Analyses a configuration at a time of the motion; at t = 0 no run is needed. `drop` (rows
-    /// from 0) selects the redundant rows; no verdict depends on this selection.
+    /// Analyses a configuration at a time of the motion. At t = 0, no run is needed. `drop` (rows
+    /// 0-based) selects the redundant rows. Verdicts do not depend on this selection.
     ///
     /// # Errors
-    /// Returns an error if the motion does not reach that time, if C cannot be analysed there, if
-    /// redundant rows contradict each other there, or if these rows cannot be redundant.
+    /// Returns an error if the motion does not reach that time, if C cannot be analysed or
+    /// redundant rows contradict each other at that time, or if the rows `drop` cannot be
+    /// redundant.
     pub fn analyse(
         &self,
         t: f64,
@@ -180,8 +185,8 @@ impl Study {
         self.analyse_until(t, drop, &|| false, |_| ())
     }
 
-    /// Like [`Self::analyse`]; `stop` is called at each evaluation of the run that reaches the
-    /// time, and `progress` is called with the number of joints analysed so far.
+    /// Works like [`Self::analyse`]. `stop` is called at each evaluation of the run up to the time.
+    /// `progress` is called with the number of joints analysed so far.
     ///
     /// # Errors
     /// Returns the errors of [`Study::analyse`], and [`StudyError::Interrupted`] if `stop` returned
@@ -217,7 +222,7 @@ impl Study {
         };
         let configuration =
             ConfigurationAnalysis::new(&self.scene, mechanism, t, state, known, rows, progress)?;
-        // Contradictions at the start were checked when it was prepared.
+        // Contradictions at the start were checked when the start was prepared.
         let found = if t == 0.0 {
             Vec::new()
         } else {
@@ -263,7 +268,7 @@ impl Study {
         self.linearise_until(t, options, &|| false)
     }
 
-    /// Like [`Self::linearise`]; `stop` is called at each evaluation of the run that reaches the
+    /// Works like [`Self::linearise`]. `stop` is called at each evaluation of the run up to the
     /// time.
     ///
     /// # Errors
@@ -281,11 +286,11 @@ impl Study {
         Ok(linearised)
     }
 
-    /// Finds an equilibrium near the start, and returns it with the study of the same scene that
-    /// starts there, at rest, for all further questions. Reference points, initial values and the
-    /// zeros of joint coordinates are still computed from the poses given in the scene. Drives are
-    /// locked at their positions at the start; if they would accelerate immediately
-    /// ([`Equilibrium::moving_on`]), the static forces are those of [`Self::held_at`].
+    /// Finds an equilibrium near the start. Also returns the study of the same scene that starts at
+    /// the equilibrium, at rest, for all further questions. Reference points, initial values and
+    /// the zeros of joint coordinates are still computed from the poses given in the scene. Drives
+    /// are locked at their positions at the start. If the drives would accelerate immediately
+    /// ([`Equilibrium::moving_on`]), [`Self::held_at`] gives the static forces.
     ///
     /// ```
     /// use pfaff::prelude::*;
@@ -313,8 +318,8 @@ impl Study {
     ) -> Result<(Equilibrium, Self), StudyError> {
         let mut found = equilibrium(&self.prepared, options)?;
         let mut there = self.starting_at(&found.q)?;
-        // A search that starts at a singular configuration uses the rank of this configuration,
-        // which may be lower than at all other configurations.
+        // A search that starts at a singular configuration uses the rank of this configuration.
+        // This rank may be lower than the rank at all other configurations.
         let rank = |study: &Self| study.prepared.decision.rank;
         for _ in 0..SEARCHES {
             let before = rank(&there);
@@ -335,8 +340,9 @@ impl Study {
         Ok((found, there))
     }
 
-    /// Returns the same study with functions of time constant at their values at t, for a start at
-    /// rest: [`model::Mechanism::held_at`]. The reactions at its start are the static reactions.
+    /// Returns the same study with constant functions of time, which have their values at t; see
+    /// [`model::Mechanism::held_at`]. This is for a start at rest. The reactions at the start are
+    /// then the static reactions.
     #[must_use]
     pub fn held_at(&self, t: f64) -> Self {
         Self {
@@ -407,8 +413,8 @@ impl Study {
         (0..mechanism.bodies().len()).map(pose).collect()
     }
 
-    /// Returns the text of the scene, if it was read from a text, that starts at the coordinates q,
-    /// at rest: see [`scene::at_rest`].
+    /// Returns the text of a scene that starts at the coordinates q, at rest; see
+    /// [`scene::at_rest`]. The scene must have been read from a text.
     ///
     /// # Errors
     /// Returns an error if the poses cannot be written into the text.
@@ -417,10 +423,10 @@ impl Study {
         scene::at_rest(&self.scene, &poses)
     }
 
-    /// Finds the first contradiction of drives after the start: with each other, or with the
-    /// motions that the joints permit. The check uses a dozen times up to the end of the run.
-    /// Returns `None` if there is no contradiction, if the end of the run is not stated, or if it
-    /// cannot be determined: see [`solvability::contradicting_drives_along`].
+    /// Finds the first contradiction of drives after the start. Drives may contradict each other,
+    /// or the motions that the joints permit. The check uses a dozen times up to the end of the
+    /// run. Returns `None` if there is no contradiction, if the end of the run is not stated, or if
+    /// the check is not possible; see [`solvability::contradicting_drives_along`].
     ///
     /// # Errors
     /// Returns an error if C cannot be analysed at one of these times.
@@ -436,9 +442,8 @@ impl Study {
     /// positions in the scene.
     ///
     /// # Errors
-    /// Returns the errors of [`Study::contradicting_drives`], and [`StudyError::Scene`], or for a
-    /// scene without text
-    /// [`StudyError::Motion`]: there are such drives.
+    /// Returns the errors of [`Study::contradicting_drives`]. If there are such drives, returns
+    /// [`StudyError::Scene`], or [`StudyError::Motion`] for a scene without text.
     pub fn check_drives(&self) -> Result<(), StudyError> {
         match self.contradicting_drives()? {
             Some(contradiction) => Err(refused(&self.scene, contradiction.into())),
@@ -447,8 +452,8 @@ impl Study {
     }
 
     /// Returns the reason why no motion begins although the start is consistent, for example a
-    /// massless body that is free to move. Returns `None` if a motion begins. For mechanisms with
-    /// many rows this is not tested, because the test takes as long as a step.
+    /// massless body that is free to move. Returns `None` if a motion begins. This is not tested
+    /// for mechanisms with many rows, because the test takes as long as a step.
     #[must_use]
     pub fn cannot_begin(&self) -> Option<String> {
         if self.prepared.mechanism.layout().rows() > BEGUN_ROWS {
@@ -475,8 +480,8 @@ impl Study {
         Some(format!("this start cannot be simulated: {error}"))
     }
 
-    /// Adds warnings to the document of the start: drives that contradict each other later, and the
-    /// reason why no motion begins.
+    /// Adds warnings to the document of the start. They state which drives contradict each other
+    /// later, and why no motion begins.
     ///
     /// # Errors
     /// Returns the errors of [`Study::contradicting_drives`].
@@ -488,13 +493,13 @@ impl Study {
         Ok(())
     }
 
-    /// Returns the state at a time of the motion; at t = 0 no run is needed.
+    /// Returns the state at a time of the motion. At t = 0, no run is needed.
     pub(crate) fn state_at(&self, t: f64) -> Result<State, StudyError> {
         self.state_until(t, &|| false)
     }
 
-    /// Returns the state at a time of the motion, as in a row of its tables at this time; at t = 0
-    /// no run is needed. `stop` is called at each evaluation of the run.
+    /// Returns the state at a time of the motion. The state is the same as in a row of the tables
+    /// at this time. At t = 0, no run is needed. `stop` is called at each evaluation of the run.
     ///
     /// ```
     /// use pfaff::prelude::*;
@@ -521,8 +526,7 @@ impl Study {
         }
         let own = self.motion_to(t);
         match self.reached(t, &own, stop) {
-            // The motion up to the end that the scene states may fail to begin because of later
-            // events.
+            // A run to the end that the scene states may not begin because of events after t.
             Err(StudyError::Motion(_)) if own.t_end > t => {
                 let shorter = MotionOptions { t_end: t, ..own };
                 self.reached(t, &shorter, stop)
@@ -559,8 +563,8 @@ impl Study {
         state.ok_or(StudyError::Interrupted)
     }
 
-    /// Returns options of a run with a row at this time. The steps are those of the motion that the
-    /// scene states. A run that ended at this time would take other steps and give a slightly
+    /// Returns options of a run with a row at this time. The run has the same steps as the motion
+    /// that the scene states. A run that ended at this time would have other steps and a slightly
     /// different motion within the tolerance.
     fn motion_to(&self, t: f64) -> MotionOptions {
         let base = self.options.clone().unwrap_or_else(|| MotionOptions::to(t));
@@ -571,15 +575,15 @@ impl Study {
         }
     }
 
-    /// Returns the options of a run of the scene, with those of the caller taking precedence;
-    /// `None` if neither states its end. A choice of redundant rows needs a separate study, see
-    /// [`AssembledScene::prepare`].
+    /// Returns the options of a run of the scene. Options of the caller take precedence. Returns
+    /// `None` if neither the scene nor the caller states the end of the run. A choice of redundant
+    /// rows needs a separate study; see [`AssembledScene::prepare`].
     #[must_use]
     pub fn options_with(&self, overrides: &RunOptions) -> Option<MotionOptions> {
         crate::assembled::options(&self.scene, overrides)
     }
 
-    /// Runs the scene and passes projected output rows to a function; see [`dynamics::simulate()`].
+    /// Runs the scene and passes projected output rows to a function. See [`dynamics::simulate()`].
     ///
     /// # Errors
     /// An error contains the summary of the completed part.
@@ -591,8 +595,8 @@ impl Study {
         self.run_until(options, &|| false, row)
     }
 
-    /// Like [`Study::run`]; `stop` is called at each evaluation, and the run ends after it returns
-    /// true.
+    /// Works like [`Study::run`]. `stop` is called at each evaluation. The run ends after `stop`
+    /// returns true.
     ///
     /// # Errors
     /// Returns the errors of [`Study::run`].
@@ -605,9 +609,9 @@ impl Study {
         simulate_until(&self.prepared, options, stop, row)
     }
 
-    /// Returns the motion as plain data: state and reactions at t = 0, at every output step and at
-    /// the end, with the numbers, events and verdicts of the run. Values of reactions that are not
-    /// unique depend on the choice that the summary states.
+    /// Returns the motion as plain data. The data contain the state and the reactions at t = 0, at
+    /// every output step and at the end, and the numbers, events and verdicts of the run. Values of
+    /// reactions that are not unique depend on the choice that the summary states.
     ///
     /// ```
     /// use pfaff::prelude::*;
@@ -650,9 +654,9 @@ impl Study {
         }
     }
 
-    /// Runs the scene and passes its rows with their reactions to `row`, which may end the run.
-    /// `stop` is called at each evaluation and may also end the run. Rows that were passed remain
-    /// valid for any ending of the run.
+    /// Runs the scene and passes the rows with their reactions to `row`. `row` may end the run.
+    /// `stop` is called at each evaluation and may also end the run. Rows that were passed are
+    /// valid even if the run ends early.
     ///
     /// ```
     /// use std::ops::ControlFlow;
@@ -687,7 +691,8 @@ impl Study {
         self.show_bounded(options, wanted, self.bounds.as_ref(), stop, row)
     }
 
-    /// Like [`Study::show`], with bounds for these elastic joints in place of [`Study::bounds`].
+    /// Works like [`Study::show`], with bounds for these elastic joints in place of
+    /// [`Study::bounds`].
     ///
     /// # Errors
     /// Returns the errors of [`Study::show`].
@@ -780,7 +785,7 @@ impl Study {
         requests::reaction(&self.scene, &self.prepared.mechanism, name)
     }
 
-    /// Returns the elastic joints of the request in the scene, if it requests bounds.
+    /// Returns the elastic joints of the request in the scene, if the scene requests bounds.
     ///
     /// # Errors
     /// [`StudyError::Bounds`], if the request does not fit the mechanism.
@@ -793,7 +798,7 @@ impl Study {
         requests::groups(&self.scene, &self.prepared.mechanism, &[])
     }
 
-    /// Returns the data of a run that are known before it begins.
+    /// Returns the data of a run that are known before the run begins.
     fn begun(&self) -> Result<RunPreparation<'_>, StudyError> {
         let start = self.analyse(0.0, None)?;
         let choices = self.choices.iter().map(|choice| start.named(choice));
@@ -845,7 +850,7 @@ impl Study {
         wanted.accelerations |= asks_bodies;
         let needs_all = asks_bodies || self.bounds.is_some();
         if needs_all && matches!(wanted.reactions, Reactions::Of(_)) {
-            // The bounds of one reaction depend on the loads of all.
+            // The bounds of one reaction depend on the loads of all joints.
             wanted.reactions = Reactions::All;
         }
         let options = MotionOptions {
@@ -855,7 +860,7 @@ impl Study {
         Ok(Plan::new(&self.prepared, &options, &wanted)?)
     }
 
-    /// Returns the number of rows that a run computes for each row of the tables: an animation may
+    /// Returns the number of rows that a run computes for each row of the tables. An animation may
     /// need more rows than the scene requests. The number is a power of two, so that the times of
     /// the tables do not change.
     fn rows_between(&self, wanted: &OutputRequest) -> usize {
@@ -873,11 +878,11 @@ impl Study {
         between
     }
 
-    /// Runs the scene and writes `trajectory.csv`, `reactions.csv`, `summary.json` and
-    /// `report.html` into a directory, each if the scene requests it. Files of an earlier run that
-    /// this run does not write are removed. `progress` is called with the time of each row, or of
-    /// each step if no rows are written, and may stop the run. The files of a stopped run are kept,
-    /// and its summary contains `partial`.
+    /// Runs the scene and writes the requested files into a directory: `trajectory.csv`,
+    /// `reactions.csv`, `summary.json` and `report.html`. Files of an earlier run that this run
+    /// does not write are removed. `progress` is called with the time of each row and may stop the
+    /// run. If no rows are written, `progress` is called with the time of each step. The files of a
+    /// stopped run are kept, and the summary contains `partial`.
     ///
     /// # Errors
     /// - [`StudyError::NoEnd`]: neither the scene nor the caller states the end of the run.
@@ -893,8 +898,9 @@ impl Study {
         self.simulate_as(&Origin::default(), directory, &|| false, progress)
     }
 
-    /// Like [`Study::simulate_into`], with information for the report on the origin of the run, and
-    /// with `stop`, which is called at each evaluation; the run ends after it returns true.
+    /// Works like [`Study::simulate_into`]. In addition, the report contains information about the
+    /// origin of the run. `stop` is called at each evaluation, and the run ends after `stop`
+    /// returns true.
     ///
     /// # Errors
     /// Returns the errors of [`Study::simulate_into`].
@@ -960,7 +966,7 @@ impl Study {
         let mut report_builder = output.report.then(builder).transpose()?;
         let progress = Mutex::new(progress);
         let go_on = |t: f64| {
-            // A lock is poisoned only by a panic, which continues in its own thread.
+            // A lock is poisoned only by a panic. The panic continues in its own thread.
             progress.lock().map_or(ControlFlow::Break(()), |mut p| p(t))
         };
         let watch = |t: f64| match plan.rows.value {
@@ -974,7 +980,7 @@ impl Study {
             written_rows += usize::from(counted.take(sample.t));
             Ok(ControlFlow::Continue(()))
         });
-        // Without rows of reactions a run need not stop at the rows.
+        // Without rows of reactions, a run need not stop at the rows.
         let (mut loads, mut pulls) = match output.reactions {
             WantedReactions::None => (None, None),
             _ => (
@@ -1038,7 +1044,7 @@ impl Study {
             source,
         })?;
         directory.write("summary.json", &text)?;
-        // The summary lists the files of the run, so old files without an entry have no meaning.
+        // The summary lists the files of the run. Old files without an entry are removed.
         directory.keep(FAMILY, &files)?;
         if let Some(report_builder) = report_builder {
             let figure = comparison_beside(directory);
@@ -1064,9 +1070,9 @@ impl Study {
     }
 }
 
-/// Data of a run that are known before it begins.
+/// Data of a run that are known before the run begins.
 struct RunPreparation<'s> {
-    /// The load case whose values the scene has.
+    /// The load case whose values the scene contains.
     case: Option<&'s str>,
     start: ConfigurationAnalysis<'s>,
     freedoms: Freedoms,
@@ -1193,8 +1199,8 @@ pub const FAMILY: Family = Family(&[
     "report.html",
 ]);
 
-/// Returns the files of a run with this output, these tables of choices, and those of the other
-/// tables that exist.
+/// Returns the files of a run with this output and these tables of choices. `more` lists other
+/// tables, and whether they exist.
 fn files_of(output: &Output, choices: &[String], more: [(&str, bool); 2]) -> Vec<String> {
     let reactions = !matches!(output.reactions, WantedReactions::None);
     let tables = [
@@ -1230,7 +1236,7 @@ fn wanted(output: &Output) -> OutputRequest {
     }
 }
 
-/// Returns the values of a row for each choice. Counts the rows at which a choice selects no
+/// Returns the values of a row for each choice, and counts the rows at which a choice selects no
 /// solution.
 fn chosen_numbers(
     sample: &mut Sample<'_, '_>,
@@ -1253,8 +1259,8 @@ fn chosen_numbers(
     Ok(all)
 }
 
-/// Returns the figure of a comparison of methods in the same directory, if there is one and it is
-/// not too large for the page.
+/// Returns the figure of a comparison of methods in the same directory, if there is such a figure
+/// and the figure is not too large for the page.
 fn comparison_beside(directory: &OutputDirectory) -> Option<String> {
     let path = directory.path().join("work_precision.svg");
     let small = std::fs::metadata(&path).is_ok_and(|m| m.len() < FIGURE_MOST);

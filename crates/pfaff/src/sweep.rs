@@ -1,22 +1,23 @@
-//! Many runs of one scene with different numbers: in parallel, in shards on any number of machines,
-//! and such that the end of a process does not lose a finished run.
+//! Many runs of one scene with different numbers. The runs are parallel and may be divided into
+//! shards on any number of machines. If a process ends, no finished run is lost.
 //!
 //! Each run is read, checked, assembled and simulated like any scene. An error for one combination
-//! of numbers is reported in its row; the other runs continue. Only unique reactions have values.
+//! of numbers is reported in the row of this combination; the other runs continue. Only unique
+//! reactions have values.
 //!
-//! The meaning of a key is described in [`scene::Template`], the format of files in
-//! [`report::sweep`].
+//! [`scene::Template`] describes the meaning of a key, and [`report::sweep`] the format of files.
 //!
-//! A run counts as finished once its line is in a journal. A journal belongs to one process, is
-//! only appended to, and contains a digest in each line. Once all runs of a shard are finished,
-//! they are written to one file next to its final name, synchronised and renamed. No lock is
-//! necessary: a process that repeats a run writes the same line. Runs that a crashed process left
-//! unfinished are retried first, one per process (`gate`); a run that then ends two processes is
-//! reported as a row. Processes are started by Slurm, Dask or Ray, not by this module.
+//! A run counts as finished once a journal contains its line. A journal belongs to one process. The
+//! process only appends lines, and each line contains a digest. Once all runs of a shard are
+//! finished, they are written to one file next to its final name. This file is synchronised and
+//! renamed. No lock is necessary, because a process that repeats a run writes the same line. Runs
+//! that a crashed process left unfinished are retried first, one per process (`gate`). A run that
+//! then ends two processes is reported as a row. Slurm, Dask or Ray start the processes, not this
+//! module.
 //!
-//! Rejected alternatives: a shard of every n-th run, because its rows are distributed over the
-//! whole grid and n cannot be changed later. Locks were also rejected, and so were tables written
-//! by every shard, because 200 shards would write all rows 200 times.
+//! We rejected three alternatives. A shard of every n-th run has rows that are distributed over the
+//! whole grid, and n cannot be changed later. Locks are not necessary. If every shard wrote the
+//! tables, 200 shards would write all rows 200 times.
 
 mod attempt;
 mod axis;
@@ -52,7 +53,7 @@ pub use varied::Sweep;
 pub struct SweepSettings {
     /// The runs that this process performs.
     pub shard: Shard,
-    /// Number of threads; 0 means one for each core.
+    /// Number of threads. 0 means one thread for each core.
     pub threads: usize,
 }
 
@@ -66,14 +67,14 @@ impl Default for SweepSettings {
 }
 
 impl Sweep<'_> {
-    /// Performs the runs of a shard that are not finished yet, and writes them as one file. If all
-    /// runs of the sweep are then finished, or if the shard is the whole sweep, the tables are
+    /// Performs the runs of a shard that are not finished yet, and writes the shard as one file. If
+    /// all runs of the sweep are then finished, or if the shard is the whole sweep, the tables are
     /// written: `sweep.csv`, `sweep.parquet` and `summary.json`. `progress` is called with each
-    /// finished run, in any order; `interrupted` is called often and ends the sweep without losing
-    /// a finished run.
+    /// finished run, in any order. `interrupted` is called often. If it returns true, the sweep
+    /// ends, and no finished run is lost.
     ///
     /// Any number of processes may work in one directory, also on the same shard. If the process
-    /// ends during a run, this run is repeated alone; if the process ends twice during the
+    /// ends during a run, this run is repeated alone. If the process ends twice during the
     /// repetition, the row of the run reports this.
     ///
     /// # Errors
@@ -170,7 +171,7 @@ impl Sweep<'_> {
     }
 }
 
-/// How a sweep, or a shard of it, ended.
+/// The end of a sweep or of a shard.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SweepOutcome {
     /// Runs of the sweep or shard.
@@ -184,14 +185,14 @@ pub struct SweepOutcome {
 pub enum Tables {
     /// This call has written the tables.
     Written,
-    /// Runs of other shards are missing: the process that performs the last run writes the tables,
-    /// or [`merge`] does.
+    /// Runs of other shards are missing. The process that performs the last run writes the tables,
+    /// or [`merge`] writes them.
     NotYet,
 }
 
-/// Deletes the rows of runs that ended their process, if there are any in a directory: the next
-/// call of [`Sweep::run_into`] repeats these runs. Returns the number of these runs. During this
-/// call no process may perform runs of the sweep.
+/// Deletes the rows of runs that ended their process. The next call of [`Sweep::run_into`] in this
+/// directory repeats these runs. Returns the number of these runs. During this call, no process may
+/// perform runs of the sweep.
 ///
 /// # Errors
 /// [`SweepError::Journal`]: the directory cannot be read or written.
@@ -205,8 +206,8 @@ pub fn forget_crashed(directory: &Path) -> Result<u64, SweepError> {
 /// Merges the results of several directories into one set of tables.
 ///
 /// # Errors
-/// [`SweepError::Journal`]: they belong to different sweeps, or two rows of one run differ;
-/// [`SweepError::File`], [`SweepError::Table`]: a file could not be written.
+/// [`SweepError::Journal`]: the directories belong to different sweeps, or two rows of one run
+/// differ; [`SweepError::File`], [`SweepError::Table`]: a file could not be written.
 pub fn merge<P: AsRef<Path>>(directories: &[P], into: &Path) -> Result<MergedSweep, SweepError> {
     let records = Records::merged(directories)?;
     let output = OutputDirectory::create(into)?.shared()?;
@@ -225,8 +226,8 @@ pub struct MergedSweep {
     pub shards: Option<u64>,
 }
 
-/// Writes the tables of a sweep. If other processes have finished shards in the meantime, they may
-/// have written tables with more rows earlier; then the tables are written again.
+/// Writes the tables of a sweep. In the meantime, other processes may have finished shards and
+/// written tables with more rows. In this case, the tables are written again.
 fn write_all(
     output: &OutputDirectory,
     shards: &Shards,

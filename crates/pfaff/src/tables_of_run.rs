@@ -1,9 +1,10 @@
 //! Sinks that write the rows of a run to tables.
 //!
-//! The verdict of a stretch is known only at its end. So a run first writes all numbers of one
-//! choice, and `reactions.csv` is a copy of this table without the numbers that are not determined.
-//! The first table is stored as `choice.csv` if a cell of the copy is empty. In tables of other
-//! choices, numbers that the model determines are replaced by those of the run.
+//! The verdict of a stretch is known only at the end of the stretch. Therefore a run first writes
+//! all numbers of one choice, and `reactions.csv` is a copy of this table without the numbers that
+//! are not determined. If a cell of the copy is empty, the first table is stored as `choice.csv`.
+//! In tables of other choices, numbers that the model determines are replaced by the numbers of the
+//! run.
 
 use std::fs::File;
 use std::io::{BufReader, Write};
@@ -26,10 +27,11 @@ use crate::peaks_of_run::{FoundPeaks, PeaksOfRun};
 use crate::rows::{RowFault, RowSink};
 use crate::words::scene_units;
 
-/// Selects the rows of a run that belong to its tables: an animation may need more rows.
+/// Selects the rows of a run that belong to its tables. An animation may need more rows.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct TableRows {
-    /// Every row whose index is a multiple of this number, and the last row.
+    /// The rows of the tables are the rows whose index is a multiple of this number, and the last
+    /// row.
     between: usize,
     t_end: f64,
     seen: usize,
@@ -52,7 +54,7 @@ impl TableRows {
     }
 }
 
-/// Returns the units of the tables of a run; `None` for SI units.
+/// Returns the units of the tables of a run. Returns `None` for SI units.
 pub(crate) fn table_units(scene: &Scene) -> Option<SceneUnits> {
     match scene.output.units {
         OutputUnits::Si => None,
@@ -69,7 +71,7 @@ pub fn more_columns(output: &Output) -> MoreColumns {
     }
 }
 
-/// Returns the reactions in a table; `None` if no table is requested.
+/// Returns the reactions in a table. Returns `None` if no table is requested.
 pub(crate) fn selection(wanted: &WantedReactions) -> Option<Selection> {
     match wanted {
         WantedReactions::All => Some(Selection::All),
@@ -78,7 +80,7 @@ pub(crate) fn selection(wanted: &WantedReactions) -> Option<Selection> {
     }
 }
 
-/// Gives a file its final name; the run may have ended early.
+/// Gives a file its final name. The run may have ended early.
 pub(crate) fn finished(file: OutputFile, ending: &Ending<'_>) -> Result<PathBuf, FileError> {
     match ending {
         Ending::Complete => file.finish(),
@@ -129,14 +131,15 @@ pub(crate) fn acceleration<W: Write>(
     has_accelerations.then(|| sample.acceleration()).transpose()
 }
 
-/// Writer of `reactions.csv`, and of tables of choices if a cell of it is empty. Before the end of
-/// the run, all values are those of one choice. For the independent rows of the run they are in
-/// `choice.csv`; if other choices are requested, they are in a file that is removed at the end.
+/// Writer of `reactions.csv`. If a cell of this table is empty, tables of choices are also written.
+/// Before the end of the run, all values belong to one choice. The values for the independent rows
+/// of the run are in `choice.csv`. If other choices are requested, these values are in a file that
+/// is removed at the end.
 pub(crate) struct ReactionFiles<'m> {
     directory: &'m OutputDirectory,
     mechanism: &'m Mechanism,
     table: Option<ReactionTable<OutputFile>>,
-    /// The values for each requested choice, with the rows at which it selects no solution.
+    /// The values for each requested choice, with the rows at which the choice selects no solution.
     chosen: Vec<(ReactionTable<OutputFile>, Option<Gap>)>,
     /// Whether every number is determined at all times.
     is_plain: bool,
@@ -146,7 +149,7 @@ pub(crate) struct ReactionFiles<'m> {
     columns: Vec<ReactionColumn>,
     /// The peaks, available after the end.
     pub(crate) found: FoundPeaks,
-    /// The tables of choices, available after the end; empty if no cell is empty.
+    /// The tables of choices, available after the end. The list is empty if no cell is empty.
     pub(crate) choice_files: Vec<String>,
     /// The rows at which each choice selects no solution, available after the end.
     pub(crate) gaps: Vec<Option<Gap>>,
@@ -196,7 +199,7 @@ impl<'m> ReactionFiles<'m> {
         })
     }
 
-    /// Writes `reactions.csv` from all values of the run. If a cell is empty, it also writes the
+    /// Writes `reactions.csv` from all values of the run. If a cell is empty, also writes the
     /// tables of the requested choices from their values.
     fn end_of_choices(
         &mut self,
@@ -217,8 +220,8 @@ impl<'m> ReactionFiles<'m> {
             if !has_choice {
                 continue;
             }
-            // For determined numbers the values of a choice differ from those of the run by
-            // rounding.
+            // For determined numbers, the values of a choice differ from the values of the run only
+            // by rounding.
             let own = File::open(finished(file, ending)?).map_err(write)?;
             let name = choice_file(k);
             let mut out = self.directory.file(&name)?;
@@ -270,7 +273,7 @@ impl RowSink for ReactionFiles<'_> {
         let stretches = if let Some(verdicts) = verdicts {
             verdicts
         } else {
-            // No joint or drive is written, so no cell is undetermined.
+            // No joint or drive is written, so every cell is determined.
             nothing = Stretches::unique(self.mechanism, [0.0; 2], self.numbers.groups());
             &nothing
         };
@@ -291,7 +294,7 @@ impl RowSink for ReactionFiles<'_> {
         let mut out = self.directory.file(REACTIONS)?;
         let has_choice = write_determined(all, &mut out, &columns, stretches)?;
         finished(out, ending)?;
-        // Without a choice this file is not among the files that are kept.
+        // Without a choice, the list of kept files does not contain this file.
         if has_choice {
             self.choice_files.push(CHOICE.to_owned());
         }

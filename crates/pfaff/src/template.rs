@@ -19,7 +19,8 @@ macro_rules! examples {
     };
 }
 
-/// The list is ordered from simple to rich; `examples/README.md` lists the templates by kind.
+/// The list starts with simple scenes and ends with scenes that use many features.
+/// `examples/README.md` lists the templates by kind.
 const EXAMPLES: [Template; 33] = examples!(
     "door" "carriage" "truss" "four-bar" "slider-crank" "knife-edge" "sleigh" "towed-cart" "scotch-yoke" "three-cranks" "gear-train" "planetary-gear"
     "sweeper" "car" "truck" "snakeboard" "pantograph" "peaucellier" "chebyshev" "five-bar" "scissor-lift" "andrews"
@@ -68,7 +69,8 @@ impl Template {
         )
     }
 
-    /// Returns the scene with a header that explains its use; `file` is its name in the header.
+    /// Returns the scene with a header that explains its use. `file` is the file name in the
+    /// header.
     #[must_use]
     pub fn scene(self, file: &str) -> String {
         let Self { name, text } = self;

@@ -1,17 +1,17 @@
-//! Many mechanisms with data that vary within the tolerances of a scene. Each point, direction and
-//! number has a random value within its tolerance. Each such mechanism is assembled again from the
-//! described configuration and analysed. The results are the ranges of verdicts, ranks, unique
-//! reactions and positions.
+//! Many mechanisms with data that vary within the tolerances of a scene. In each mechanism, each
+//! point, direction and number has a random value within its tolerance. The mechanism is assembled
+//! again from the described configuration and analysed. The results are the ranges of verdicts,
+//! ranks, unique reactions and positions.
 //!
-//! Displacements are uniformly distributed: points in the ball of their tolerance, directions and
-//! axes rotated by rotation vectors that are uniform in theirs, numbers in their interval. Each
-//! point of each body is displaced independently, because it is manufactured independently; a drive
-//! has the points of its joint. Masses and forces are not varied, unless a key varies them
-//! ([`Variation`]).
+//! Displacements are uniformly distributed. The radius of the ball for a point, and of the ball for
+//! the rotation vector of a direction or an axis, is the tolerance. Numbers are uniform in their
+//! interval. Each point of each body is displaced independently, because each point is manufactured
+//! independently. A drive has the points of its joint. Masses and forces are not varied, unless a
+//! key varies them ([`Variation`]).
 //!
 //! If rows are redundant within the tolerances, samples are assembled on the independent rows. The
 //! small violations of the redundant rows are a result. The second analysis of each sample treats
-//! its numbers as exact, without clearance; see [`Sample`].
+//! the numbers of the sample as exact, without clearance; see [`Sample`].
 //!
 //! Ranges are computed in the order of the samples, so the number of threads does not change any
 //! bit.
@@ -51,9 +51,10 @@ pub use vary::{Variation, VariedText};
 pub struct ToleranceOptions {
     /// Number of samples.
     pub samples: usize,
-    /// The seed: the same seed gives the same samples, for any number of threads.
+    /// The seed of the random numbers. The same seed gives the same samples, for any number of
+    /// threads.
     pub seed: u64,
-    /// Number of threads; `None` means one for each core.
+    /// Number of threads. `None` means one thread for each core.
     pub threads: Option<NonZeroUsize>,
 }
 
@@ -106,19 +107,19 @@ pub struct ToleranceResult {
 }
 
 impl<'r> ToleranceStudy<'r> {
-    /// Analyses the described mechanism at a time of its motion; at t = 0 no run is needed.
+    /// Analyses the described mechanism at a time of its motion. At t = 0, no run is needed.
     ///
     /// # Errors
     /// - [`ToleranceError::NoTolerance`], [`ToleranceError::NoData`]: no datum varies.
     /// - [`ToleranceError::TooLarge`]: the mechanism has too many rows.
     /// - [`ToleranceError::Study`]: the mechanism cannot be assembled, moved to that time, or
-    ///   analysed there.
+    ///   analysed at that time.
     pub fn new(assembled: AssembledScene, t: f64) -> Result<Self, ToleranceError> {
         Self::varying(assembled, t, None)
     }
 
-    /// Like [`Self::new`], with further numbers of the scene that vary; then no tolerance has to be
-    /// stated.
+    /// Works like [`Self::new`], with further numbers of the scene that vary. In this case, the
+    /// scene need not state a tolerance.
     ///
     /// # Errors
     /// Returns the errors of [`Self::new`].
@@ -142,8 +143,8 @@ impl<'r> ToleranceStudy<'r> {
         Ok(Self { nominal, vary })
     }
 
-    /// Returns the same study with bounds of the reactions that are not unique with the described
-    /// redundancy, for elastic joints.
+    /// Returns the same study with bounds for elastic joints. The bounds are computed for reactions
+    /// that are not unique with the described redundancy.
     #[must_use]
     pub fn with_bounds(mut self, scene: Scene, elasticity: Option<Elasticity>) -> Self {
         let prepared = elasticity.map(|elasticity| self.nominal.sample_bounds(scene, elasticity));
@@ -157,8 +158,9 @@ impl<'r> ToleranceStudy<'r> {
         self.nominal.sample(self.vary.as_ref(), seed, number)
     }
 
-    /// Computes all samples. `progress` is called with each sample, in any order; `interrupted` is
-    /// called often and ends the work, with the samples so far as the result.
+    /// Computes all samples. `progress` is called with each sample, in any order. `interrupted` is
+    /// called often. If it returns true, the work ends, and the result contains the samples
+    /// computed so far.
     ///
     /// # Errors
     /// - [`ToleranceError::Samples`]: the number of samples is out of its range.
@@ -213,7 +215,8 @@ impl<'r> ToleranceStudy<'r> {
     }
 
     /// Returns the names of the markers and their positions (m). For each marker, the first
-    /// position follows from the data given in the scene, and the others are those of the samples.
+    /// position follows from the data given in the scene. The other positions come from the
+    /// samples.
     #[must_use]
     pub fn clouds(&self, samples: &[Sample]) -> Vec<(String, Vec<[f64; 3]>)> {
         self.nominal.clouds(samples)

@@ -55,7 +55,7 @@ pub struct Drawing {
 }
 
 impl Drawing {
-    /// Draws the start of a scene; `scale` is the number of pixels of a PNG for each px.
+    /// Draws the start of a scene. `scale` is the number of pixels of a PNG for each px.
     ///
     /// # Errors
     /// Returns an error if the scene has no start, or if the picture cannot be painted.
@@ -97,7 +97,7 @@ fn figure(start: &ConfigurationAnalysis<'_>) -> Result<String, Refusal> {
         .map_err(|e| Refusal::stopped(e.to_string()))
 }
 
-/// Returns the page for the start only, without a run.
+/// Returns the page for the start, without a run.
 fn page(start: &ConfigurationAnalysis<'_>, document: &AnalysisDocument, origin: &Origin) -> String {
     let mut recording = Recording::new(0.0, 1.0, 1);
     let frame = Frame::at_rest(0.0, &start.state.q, start.mechanism.layout().n_v);

@@ -6,11 +6,12 @@ use model::{Mechanism, StartError, System, Tolerance};
 use scene::Scene;
 use solvability::{ConstraintLevel, ONE_PART};
 
-/// A start with a violation above this fraction of the size is wrong, and not only inaccurate.
+/// Largest violation of an inaccurate start, as a fraction of the size. A start with a larger
+/// violation is wrong.
 const SMALL: f64 = 1e-2;
 
-/// Tolerances that are tried, as multiples of the violation: data of several joints may contribute
-/// to it, and levers may amplify it.
+/// Tolerances that are tried, as multiples of the violation. Data of several joints may contribute
+/// to the violation, and levers may amplify errors of the data.
 const TRIED: [f64; 4] = [1.0, 3.0, 10.0, 30.0];
 
 /// Returns the largest of these violations (m), with angles multiplied by the size of the
@@ -20,15 +21,16 @@ pub(crate) fn missed(misfits: &[Misfit], size: f64) -> f64 {
     each.fold(0.0, f64::max)
 }
 
-/// Returns a mechanism with which tolerances are tried if it cannot be prepared; `None` if it
-/// states a tolerance, or if it is so large that the trials take long.
+/// Returns a copy of the mechanism. Tolerances are tried with the copy if the mechanism cannot be
+/// prepared. Returns `None` if the mechanism states a tolerance, or if it is so large that the
+/// trials take long.
 pub(crate) fn spare(mechanism: &Mechanism) -> Option<Mechanism> {
     let is_tried = !mechanism.has_tolerances() && mechanism.layout().rows() <= ONE_PART;
     is_tried.then(|| mechanism.clone())
 }
 
 /// Returns the advice to state a tolerance, if rows have small violations and the mechanism can be
-/// prepared with a tolerance that was found.
+/// prepared with one of the tried tolerances.
 pub(crate) fn advice(
     spare: Option<&Mechanism>,
     scene: &Scene,

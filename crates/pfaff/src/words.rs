@@ -11,17 +11,17 @@ use std::iter;
 /// A part of an answer.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Block {
-    /// A title of the next blocks, without a full stop, after an empty line.
+    /// The title of the next blocks, without a full stop. It is printed after an empty line.
     Heading(String),
-    /// A sentence after an introduction; its further lines are indented by the width of the
-    /// introduction.
+    /// A sentence after an introduction. Further lines of the sentence are indented by the width of
+    /// the introduction.
     Sentence {
         /// The introduction, such as `warning: `, or an empty text.
         lead: String,
         /// The sentence.
         text: String,
     },
-    /// Explanation of a table, directly below it: a word and its meaning.
+    /// An explanation below a table: a word and its meaning.
     Legend(String, String),
     /// An empty line before a new subject.
     Gap,
@@ -65,8 +65,8 @@ impl Block {
     }
 }
 
-/// Converts the blocks to text. Sentences follow each other; there is an empty line before headings
-/// and around tables that have no heading.
+/// Converts the blocks to text. Sentences follow each other. There is an empty line before
+/// headings, and around tables that have no heading.
 #[must_use]
 pub fn text(blocks: &[Block], is_verbose: bool, units: UnitSystem) -> String {
     let mut out = String::new();
@@ -138,8 +138,8 @@ pub fn load_unit(component: &str) -> &'static str {
 /// Width of printed texts (characters).
 const WIDTH: usize = 100;
 
-/// Breaks a text into lines of at most 100 characters, if its words are short enough; the first
-/// line begins with `lead`, and the other lines are indented by its width.
+/// Breaks a text into lines of at most 100 characters, if the words of the text are short enough.
+/// The first line begins with `lead`, and the other lines are indented by the width of `lead`.
 #[must_use]
 pub fn wrapped(lead: &str, text: &str) -> String {
     let indent = " ".repeat(lead.chars().count());
@@ -164,7 +164,7 @@ pub fn wrapped(lead: &str, text: &str) -> String {
     out
 }
 
-/// The keys in the order of their first values, each with all its values.
+/// Returns the keys in the order of their first values. Each key has the list of all its values.
 pub fn grouped<K: PartialEq, V>(pairs: impl IntoIterator<Item = (K, V)>) -> Vec<(K, Vec<V>)> {
     let mut groups: Vec<(K, Vec<V>)> = Vec::new();
     for (key, value) in pairs {

@@ -1,5 +1,5 @@
-//! Error against run time: one scene with every method at many tolerances, compared with
-//! independent reference values.
+//! Error against run time. One scene is simulated with every method at many tolerances, and the
+//! results are compared with independent reference values.
 //!
 //! | module | content |
 //! | --- | --- |
@@ -39,7 +39,8 @@ pub use standard::{Errors, Reference, ReferenceInstant};
 /// Number of instants at which motions without a known solution are compared.
 const INSTANTS: u32 = 5;
 
-/// Tolerances for a reference, which uses the tightest one at which a method reaches its end.
+/// Tolerances for a reference. The reference uses the tightest of these tolerances at which a
+/// method reaches the end of the run.
 const TIGHTEST: [f64; 3] = [1e-13, 1e-12, 1e-11];
 
 /// A scene whose motions are compared.
@@ -59,7 +60,7 @@ pub struct Subject {
 pub struct SceneComparison {
     /// References, runs, and ranking.
     pub scene: WorkPrecisionScene,
-    /// Whether it was interrupted.
+    /// Whether the comparison was interrupted.
     pub interrupted: bool,
 }
 
@@ -72,7 +73,8 @@ impl Subject {
         Self::new(study, title, Some(reference))
     }
 
-    /// Creates a scene without a known motion: its reference consists of two methods that agree.
+    /// Creates a scene without a known motion. The reference then consists of two methods that
+    /// agree.
     ///
     /// # Errors
     /// [`StudyError::NoEnd`]: neither the scene nor the caller states the end of the run.
@@ -138,13 +140,13 @@ impl Subject {
         Ok(known.and_then(|known| known.errors(&run.observations)))
     }
 
-    /// Performs all runs of a plan, then those of the rivals at the same tolerances, and passes on
-    /// each row when it is finished. `interrupted` is called from time to time to decide whether to
-    /// stop.
+    /// Performs all runs of a plan, and then the runs of the rivals at the same tolerances. Each
+    /// row is passed on when it is finished. `interrupted` is called from time to time to decide
+    /// whether to stop.
     ///
     /// # Errors
-    /// [`StudyError::Analysis`]: it cannot be determined which reactions are unique. Also the
-    /// errors of `row`.
+    /// [`StudyError::Analysis`]: it cannot be determined which reactions are unique. Errors of
+    /// `row` are also returned.
     pub fn compare<E: From<StudyError>>(
         &self,
         plan: &ComparisonPlan,
@@ -278,8 +280,8 @@ impl Subject {
         Some(Standard::known(reference, mechanism, self.size))
     }
 
-    /// Returns the reference values of the runs: the known motion, and for other quantities two
-    /// runs of different methods that agree.
+    /// Returns the reference values of the runs. They come from the known motion. For other
+    /// quantities, they come from two runs of different methods that agree.
     fn standard(
         &self,
         plan: &ComparisonPlan,

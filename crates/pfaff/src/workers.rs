@@ -12,11 +12,11 @@ use rayon::{ThreadBuilder, ThreadPool, ThreadPoolBuilder};
 /// Largest number of threads for parallel computations.
 pub const MOST_THREADS: usize = 256;
 
-/// Starts the threads of all parallel computations of this program: as many as given, up to
-/// [`MOST_THREADS`], or one for each core. If the system does not allow this number, the calling
-/// thread computes everything, and the function returns `false`. A second call has no effect and
-/// returns the result of the first call. Runs with several components have a separate option,
-/// [`dynamics::MotionOptions::threads`].
+/// Starts the threads of all parallel computations of this program. The number of threads is the
+/// given number, but at most [`MOST_THREADS`]. If no number is given, there is one thread for each
+/// core. If the system does not allow this number, the calling thread computes everything, and the
+/// function returns `false`. A second call has no effect and returns the result of the first call.
+/// Runs with several components have a separate option, [`dynamics::MotionOptions::threads`].
 pub fn start_threads(threads: Option<NonZeroUsize>) -> bool {
     static STARTED: OnceLock<bool> = OnceLock::new();
     *STARTED.get_or_init(|| {
@@ -100,8 +100,8 @@ fn most(threads: Option<NonZeroUsize>) -> usize {
     threads.map_or(cores, NonZeroUsize::get).min(MOST_THREADS)
 }
 
-/// Starts threads that wait for their work, so that either all threads of a pool exist or none: an
-/// incomplete pool cannot be started again. The threads end if they receive no work.
+/// Starts threads that wait for their work, so that either all threads of a pool exist or none of
+/// them. An incomplete pool cannot be started again. The threads end if they receive no work.
 fn waiting(number: usize) -> io::Result<Vec<Sender<ThreadBuilder>>> {
     let mut threads = Vec::with_capacity(number);
     for _ in 0..number {
@@ -114,7 +114,7 @@ fn waiting(number: usize) -> io::Result<Vec<Sender<ThreadBuilder>>> {
         match thread::Builder::new().spawn(work) {
             Ok(handle) => threads.push((sender, handle)),
             Err(e) => {
-                // Later computations need their memory.
+                // The memory of the threads that end must be free for later computations.
                 for (sender, handle) in threads {
                     drop(sender);
                     let _ = handle.join();
@@ -126,7 +126,7 @@ fn waiting(number: usize) -> io::Result<Vec<Sender<ThreadBuilder>>> {
     Ok(threads.into_iter().map(|(sender, _)| sender).collect())
 }
 
-/// Passes the work of a pool to threads that wait for it.
+/// Passes the work of a pool to threads that wait for this work.
 fn to_these(
     mut waiting: Vec<Sender<ThreadBuilder>>,
 ) -> impl FnMut(ThreadBuilder) -> io::Result<()> {

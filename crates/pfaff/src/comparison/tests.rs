@@ -1,4 +1,4 @@
-//! Tests choices of mechanisms for which the result of each choice can be derived by hand.
+//! Tests choices for mechanisms. The result of each choice can be derived by hand.
 
 use std::ops::ControlFlow;
 
@@ -82,8 +82,8 @@ fn two_wheels_of_one_axle_share_in_any_way() {
         }
         shares.push([choice.values[0][0][1], choice.values[0][1][1]]);
     }
-    // The expected choices are the choice of the run, the least norm, and the other wheel without
-    // force.
+    // The expected choices are the choice of the run, the least norm, and the choice in which the
+    // other wheel has no force.
     assert!(shares[0].iter().any(|x| x.abs() < 1e-12));
     assert!(shares[1].iter().all(|x| (x + 3.0).abs() < 1e-12));
     assert_eq!(
@@ -91,14 +91,14 @@ fn two_wheels_of_one_axle_share_in_any_way() {
         shares[2].map(|x| x.abs() > 1e-12)
     );
     for freedom in c.freedom.iter().flatten() {
-        // The force is free across the cart, and in no other direction.
+        // The force is free across the cart, and only in this direction.
         assert!(freedom.angle.cos().abs() < 1e-12 && !freedom.plane);
         assert_eq!(freedom.components[..3], [false, true, false]);
     }
 }
 
-/// Three equal cranks carry one coupler: the degree of redundancy is one, and every choice gives
-/// the bodies the same accelerations.
+/// Three equal cranks support one coupler. The degree of redundancy is one, and every choice gives
+/// the same accelerations of the bodies.
 #[test]
 fn choices_differ_by_loads_that_cancel_on_every_body() {
     let text = suite::find("three-cranks").expect("a case").scene;

@@ -10,10 +10,10 @@ use crate::error::StudyError;
 use crate::pulls::{PullTimes, PullWarning};
 
 impl ConfigurationAnalysis<'_> {
-    /// Returns ranks with their proof, verdicts, groups, reasons and warnings as plain data: the
-    /// document that `pfaff analyze --json` writes, with the same keys. The groups are those of the
-    /// scene, followed by the given combinations as in [`ConfigurationAnalysis::groups`]; rows are
-    /// counted from 1.
+    /// Returns ranks with their proof, verdicts, groups, reasons and warnings as plain data. This
+    /// is the document that `pfaff analyze --json` writes, with the same keys. The groups of the
+    /// scene come first, then the given combinations as in [`ConfigurationAnalysis::groups`]. Rows
+    /// are counted from 1.
     ///
     /// More expensive results are computed separately and may be added to the document:
     ///
@@ -88,8 +88,8 @@ impl ConfigurationAnalysis<'_> {
         document.warnings.extend(only_here(&document, self));
         let has_drives = layout.groups.iter().any(|group| group.is_drive());
         let freedoms = &mut document.ranks.freedoms;
-        // If other configurations were reached, the mechanism can move, unless the search left
-        // drives, knife edges or similar constraints free.
+        // If other configurations were reached, the mechanism can move, unless the search ignored
+        // drives, knife edges or similar constraints.
         if freedoms.cannot_move.is_none() && generic.is_some() && !has_drives && layout.h == 0 {
             freedoms.cannot_move = Some(false);
         }
@@ -106,9 +106,8 @@ impl ConfigurationAnalysis<'_> {
     }
 }
 
-/// Adds the points about which moments of reactions in space are unique, for moments that are not
-/// unique about the reference points. In the plane all points of a line of action have this
-/// property.
+/// For moments in space that are not unique about the reference points, adds the points about which
+/// these moments are unique. In the plane, all points of a line of action have this property.
 fn add_centres(
     document: &mut AnalysisDocument,
     configuration: &ConfigurationAnalysis<'_>,
@@ -151,7 +150,7 @@ fn only_here(d: &AnalysisDocument, configuration: &ConfigurationAnalysis<'_>) ->
     ))
 }
 
-/// States in a sentence that the first-order free velocities are not motions.
+/// States in a sentence that the free velocities of first order are not motions.
 fn locked(d: &AnalysisDocument) -> Option<String> {
     let freedoms = &d.ranks.freedoms;
     let at_first_order = freedoms.first_order(d.ranks.mobility)?;

@@ -6,8 +6,8 @@ use super::{ConfigurationAnalysis, requests};
 use crate::error::StudyError;
 
 impl ConfigurationAnalysis<'_> {
-    /// Computes how strongly the numbers of the groups of the scene depend on the data, by group
-    /// name; numbers that are not unique, or unknown, have no sensitivity. `reactions` contains the
+    /// Computes the sensitivities of the numbers of the groups of the scene to the data, by group
+    /// name. Numbers that are not unique or not known have no sensitivity. `reactions` contains the
     /// results of [`ConfigurationAnalysis::sensitivities`].
     ///
     /// # Errors
@@ -17,7 +17,7 @@ impl ConfigurationAnalysis<'_> {
         reactions: &Sensitivities,
     ) -> Result<Vec<(String, GroupSensitivities)>, StudyError> {
         let groups = requests::groups(self.scene, self.mechanism, &[])?;
-        // A group that involves a part that is too large has no verdict here.
+        // A group has no verdict here if it involves a part that is too large.
         let judged: Vec<Option<GroupVerdict>> = groups
             .iter()
             .map(|(_, group)| self.questions.group(group).ok())
@@ -35,7 +35,7 @@ impl ConfigurationAnalysis<'_> {
             .collect())
     }
 
-    /// Computes how strongly the unique numbers of these groups depend on the data.
+    /// Computes the sensitivities of the unique numbers of these groups to the data.
     pub(super) fn sensitivities_of_groups(
         &self,
         groups: &[(&Group, &GroupVerdict)],

@@ -26,7 +26,7 @@ pub(crate) fn reaction(
     })
 }
 
-/// Returns the elastic joints of the request in the scene, if it requests bounds.
+/// Returns the elastic joints of the request in the scene, if the scene requests bounds.
 pub(crate) fn bounds(
     scene: &Scene,
     mechanism: &Mechanism,
@@ -44,7 +44,7 @@ pub(crate) fn bounds(
         .map_err(|e| StudyError::Bounds(e.document().error))
 }
 
-/// Returns groups with their names: those of the scene, then the requested combinations.
+/// Returns groups with their names: the groups of the scene, then the requested combinations.
 pub(crate) fn groups(
     scene: &Scene,
     mechanism: &Mechanism,

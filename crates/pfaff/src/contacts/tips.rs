@@ -4,10 +4,11 @@ use model::words::clause;
 use model::{BodyRef, ConstraintId, Mechanism, System};
 use solvability::Impossible;
 
-/// Part of a rate that counts as zero, relative to the largest one: rounding of the places.
+/// A rate counts as zero if it is below this fraction of the largest rate. Rates contain rounding
+/// errors of the reference points.
 const ROUNDING: f64 = 1e-9;
 
-/// Describes why no sharing of the loads presses on all one-sided joints.
+/// Describes why no distribution of the loads keeps all one-sided joints closed.
 pub(super) fn tips((mechanism, q): (&Mechanism, &[f64]), t: f64, proof: &Impossible) -> String {
     let groups = &mechanism.layout().groups;
     let names = |ids: &[ConstraintId]| -> Vec<String> {

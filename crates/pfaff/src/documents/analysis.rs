@@ -236,9 +236,9 @@ impl AnalysisDocument {
         all.any(|remedy| remedy.reactions.iter().any(|name| name == reaction))
     }
 
-    /// Builds the document of an analysis with ranks at other configurations; `None` if the ranks
-    /// were not requested, or if no other configuration could be reached. The evidence is that of
-    /// the part whose rank is least certain.
+    /// Builds the document of an analysis with the ranks at other configurations. `generic` is
+    /// `None` if these ranks were not requested, or if no other configuration could be reached. The
+    /// evidence is the evidence of the part whose rank is least certain.
     #[must_use]
     pub fn new(scene: &str, analysis: &Analysis, generic: Option<&Generic>) -> Self {
         let decision = &analysis.decision;
@@ -296,16 +296,16 @@ impl AnalysisDocument {
         self
     }
 
-    /// Adds the verdicts that hold at nearly all configurations, one for each joint and drive.
-    /// Generic verdicts come from the stretches of the motion that contain the instant, or from
-    /// other configurations.
+    /// Adds the verdicts that are valid at nearly all configurations, one verdict for each joint
+    /// and drive. Generic verdicts come from the stretches of the motion that contain the instant,
+    /// or from other configurations.
     pub fn add_generic_verdicts(&mut self, generic: &[GenericVerdict]) {
         for (reaction, generic) in self.reactions.iter_mut().zip(generic) {
             reaction.add_generic(generic);
         }
     }
 
-    /// Adds how strongly unique components and directions of reactions depend on the data. The
+    /// Adds the sensitivities of unique components and directions of reactions to the data. The
     /// sensitivities must belong to the analysis.
     pub fn add_sensitivities(&mut self, all: &Sensitivities, layout: &Layout) {
         self.fragile = all.sentences(layout);
@@ -409,8 +409,8 @@ impl DependencyDocument {
         Self::of(rows, joints.collect(), coefficients, left_out, text)
     }
 
-    /// Converts a dependency with rows counted from 0; `left_out` is the part that counts as zero
-    /// only within the tolerance.
+    /// Converts a dependency (rows 0-based). `left_out` is the part that counts as zero only within
+    /// the tolerance.
     fn of(
         rows: &[usize],
         joints: Vec<String>,

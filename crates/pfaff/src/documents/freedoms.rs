@@ -125,8 +125,8 @@ impl FreedomsDocument {
         }
     }
 
-    /// Returns the same phrase, with a remark if the mechanism cannot move, or if the second-order
-    /// conditions do not decide whether it can.
+    /// Returns the phrase of [`Self::sentence`], with a remark if the mechanism cannot move, or if
+    /// the second-order conditions do not decide whether the mechanism can move.
     #[must_use]
     pub fn summary(&self, mobility: usize) -> String {
         let sentence = self.sentence(mobility);
@@ -140,7 +140,7 @@ impl FreedomsDocument {
         }
     }
 
-    /// Returns a comma for a phrase that already contains one, and otherwise an empty string.
+    /// Returns a comma if the phrase already contains a comma, and otherwise an empty string.
     fn comma(&self) -> &'static str {
         if self.without_drives.is_some() {
             ","
@@ -149,8 +149,8 @@ impl FreedomsDocument {
         }
     }
 
-    /// Returns the mobility at first order as a phrase, if it is not zero: "mobility 1", or
-    /// "mobility 1 without its drive" if only the drive removes the last degree of freedom.
+    /// Returns the mobility at first order as a phrase, if it is not zero. The phrase is "mobility
+    /// 1", or "mobility 1 without its drive" if only the drive removes the last degree of freedom.
     #[must_use]
     pub fn first_order(&self, mobility: usize) -> Option<String> {
         match (&self.without_drives, mobility) {
@@ -186,9 +186,9 @@ impl FreedomsDocument {
         self.without_drives.as_ref().map(|without| without.mobility)
     }
 
-    /// Returns the free motions as sentences: the motions with the drives, then the motions that
-    /// the drives prescribe, each once, then the motions excluded at second order, with an
-    /// introduction that distinguishes them.
+    /// Returns the free motions as sentences with introductions. The motions with the drives come
+    /// first, then the motions that the drives prescribe, each once, then the motions that are
+    /// excluded at second order. The introductions distinguish these three kinds.
     #[must_use]
     pub fn sentences(&self) -> Vec<(String, String)> {
         let told = self.told().into_iter();
@@ -235,8 +235,8 @@ impl FreedomsDocument {
 /// Introduction, sentence, and the motion if it is described.
 type MotionSentence<'a> = (String, String, Option<&'a FreeMotionDocument>);
 
-/// Adds the motions that are not yet in the list, and the number of free motions that are only
-/// counted.
+/// Adds the motions that the list does not contain yet, and the number of free motions that are
+/// only counted.
 fn tell<'a>(
     told: &mut Vec<MotionSentence<'a>>,
     lead: &str,

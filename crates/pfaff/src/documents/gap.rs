@@ -15,7 +15,7 @@ pub struct Gap {
 }
 
 impl Gap {
-    /// Creates a gap without rows; its first row will be at this time.
+    /// Creates a gap without rows. The first row of the gap will be at this time.
     #[must_use]
     pub fn at(first: f64, reason: String) -> Self {
         Self {

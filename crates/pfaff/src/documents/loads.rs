@@ -3,8 +3,8 @@
 use model::Mechanism;
 use report::{ByName, load_columns, load_numbers};
 
-/// The loads of the force elements by name, and their numbers by the names of the columns of
-/// `loads.csv`.
+/// The loads of the force elements, by name. The numbers of each load are given by the names of the
+/// columns of `loads.csv`.
 pub type LoadsDocument = ByName<ByName<f64>>;
 
 /// Returns the loads of the force elements at time t (s), coordinates q and velocities v.

@@ -35,11 +35,12 @@ pub struct MisfitDocument {
     pub at_size: Option<f64>,
 }
 
-/// Largest number of violations that are printed as text; summary.json contains all.
+/// Largest number of violations that are printed as text. `summary.json` contains all violations.
 const TOLD: usize = 12;
 
 impl MisfitDocument {
-    /// Returns one line of text for each of the first violations, and the number of the others.
+    /// Returns one line of text for each of the first violations, and a line with the number of the
+    /// other violations.
     #[must_use]
     pub fn lines(misfits: &[Self]) -> Vec<String> {
         let mut lines: Vec<String> = misfits.iter().take(TOLD).map(Self::to_string).collect();
@@ -106,8 +107,8 @@ pub struct SpreadDocument {
 }
 
 impl SpreadDocument {
-    /// Starts without a difference; the argument contains the redundant rows of the other choice,
-    /// counted from 0.
+    /// Starts without a difference. The argument contains the redundant rows of the other choice
+    /// (0-based).
     #[must_use]
     pub fn new(dropped: &[usize]) -> Self {
         Self {
@@ -119,8 +120,8 @@ impl SpreadDocument {
         }
     }
 
-    /// Describes a run on other rows that could not begin; the argument contains the redundant
-    /// rows, counted from 0.
+    /// Describes a run on other rows that could not begin. The argument contains the redundant rows
+    /// (0-based).
     #[must_use]
     pub fn stopped(dropped: &[usize], error: &MotionError) -> Self {
         Self {

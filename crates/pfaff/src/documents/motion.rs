@@ -19,8 +19,8 @@ pub struct MotionDocument {
 }
 
 impl MotionDocument {
-    /// Builds the document of a run with its rows for one choice; numbers that are not determined
-    /// on their stretch are left out.
+    /// Builds the document of a run with its rows for one choice. Numbers that are not determined
+    /// on their stretch are omitted.
     #[must_use]
     pub fn new(
         summary: RunDocument,
@@ -86,8 +86,8 @@ impl MomentDocument {
         }
     }
 
-    /// Returns state and reactions of a mechanism: q and v body by body, reactions of all joints
-    /// and drives in the order of their rows.
+    /// Returns the state and the reactions of a mechanism. q and v are given body by body, and the
+    /// reactions of all joints and drives in the order of their rows.
     ///
     /// # Panics
     /// Panics if q and v do not belong to the mechanism.

@@ -22,7 +22,7 @@ pub(crate) struct LoadPeak {
     pub(crate) load: String,
     /// Unit of the peak.
     pub(crate) unit: &'static str,
-    /// The peak; `None` if the load is not determined during the whole run.
+    /// The peak. `None` if the load is not determined during the whole run.
     pub(crate) peak: Option<ExtremeDocument>,
 }
 
@@ -100,7 +100,8 @@ impl LoadPeak {
             };
             add(&column.owner, column.number, column.unit, throughout(peak));
         }
-        // A load without a peak is zero, because the state determines loads of force elements.
+        // The state determines the loads of force elements. Therefore a load without a peak is
+        // zero.
         let peak_of =
             |peak: Option<ExtremeDocument>| Some(peak.unwrap_or(ExtremeDocument::new(0.0, 0.0)));
         for (name, LoadOfRunDocument { peak, .. }) in &run.loads.0 {

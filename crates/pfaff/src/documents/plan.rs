@@ -4,7 +4,8 @@ use dynamics::plan::{ComponentPlan, Line, Plan};
 
 use super::ByName;
 
-/// Returns the decisions about the whole mechanism, and about its component if there is only one.
+/// Returns the decisions about the whole mechanism. If there is only one component, the decisions
+/// about this component are included.
 pub(super) fn short(plan: &Plan<'_>) -> ByName<String> {
     let lines = plan.lines().into_iter();
     named(lines.filter(|line| line.component.is_none()))

@@ -17,8 +17,8 @@ use super::{
 };
 
 /// Largest error of the energy balance without a warning, as a fraction of the largest kinetic
-/// energy. With the default tolerances the error is below a thousandth of this limit; larger errors
-/// are visible in a plot.
+/// energy. With the default tolerances, the error is below a thousandth of this limit. Errors above
+/// the limit are visible in a plot.
 pub const TRUSTED_BALANCE: f64 = 1e-3;
 
 /// A run and its results.
@@ -38,7 +38,7 @@ pub struct Run<'a> {
     pub verdicts: Option<RunVerdicts<'a>>,
     /// Numerical summary of the run.
     pub summary: &'a Summary,
-    /// The difference to the motion on other rows, if rows are violated.
+    /// The difference between this motion and the motion on other rows, if rows are violated.
     pub spread: Option<&'a SpreadDocument>,
     /// How the run ended.
     pub ending: Ending<'a>,
@@ -55,9 +55,9 @@ pub struct Run<'a> {
 pub enum Ending<'a> {
     /// The run reached its end time.
     Complete,
-    /// The run was interrupted; the results up to there are valid.
+    /// The run was interrupted. The results up to this time are valid.
     Interrupted,
-    /// The run stopped with this error; the results up to there are valid.
+    /// The run stopped with this error. The results up to this time are valid.
     Stopped(&'a MotionError),
 }
 

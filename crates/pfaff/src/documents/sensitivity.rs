@@ -1,4 +1,4 @@
-//! How strongly a unique number of a reaction depends on the data.
+//! The sensitivity of a unique number of a reaction to the data.
 
 use model::{ConstraintId, Layout};
 use serde::Serialize;
@@ -49,7 +49,8 @@ impl SensitivityDocument {
     }
 
     /// Returns the sensitivity of the group `name`, which is the largest sensitivity of its
-    /// components. If the group has several components, the text names the most sensitive one.
+    /// components. If the group has several components, the text names the most sensitive
+    /// component.
     #[must_use]
     pub fn of_group(found: &GroupSensitivities, name: &str, layout: &Layout) -> Self {
         let whole = found.whole.as_ref();

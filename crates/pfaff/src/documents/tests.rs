@@ -39,7 +39,7 @@ fn analysis() -> Analysis {
     certified(None)
 }
 
-/// The same analysis with this certificate.
+/// Returns the analysis of the door with this certificate.
 fn certified(certificate: Option<Certificate>) -> Analysis {
     let c = Matrix::from_rows(&[
         [1.0, 0.0, 0.0],

@@ -290,10 +290,10 @@ pub struct MeasureRangeDocument {
     pub range: RangeDocument,
 }
 
-/// A row with a violation below this fraction of the tolerances counts as satisfied.
+/// A row counts as satisfied if its violation is below this fraction of the tolerances.
 const FITS: f64 = 1e-6;
 
-/// A row with a violation below this value (m or rad) counts as satisfied for any tolerances.
+/// A row counts as satisfied for any tolerances if its violation is below this value (m or rad).
 const CLOSED: f64 = 1e-12;
 
 impl ToleranceDocument {
@@ -356,7 +356,7 @@ impl ToleranceDocument {
         all
     }
 
-    /// Lists reactions without a range in sentences; reactions with the same reason share a
+    /// Lists reactions without a range in sentences. Reactions with the same reason share a
     /// sentence.
     #[must_use]
     pub fn without_range(&self) -> Vec<String> {

@@ -34,8 +34,8 @@ pub struct TrackDocument {
 }
 
 impl TrackDocument {
-    /// Returns the intervals on which the number is determined as text, such as `0 … 1 s`. The text
-    /// is empty if there are no such intervals, or if the number is determined throughout.
+    /// Returns, as text, the intervals on which the number is determined, such as `0 … 1 s`. The
+    /// text is empty if there are no such intervals, or if the number is determined throughout.
     #[must_use]
     pub fn on_intervals(&self) -> String {
         let each = self.determined.iter();
@@ -91,8 +91,8 @@ pub struct RunReactionDocument {
 }
 
 impl RunReactionDocument {
-    /// Returns the verdict as a word: over the run, or at the start if no other verdict was
-    /// requested.
+    /// Returns the verdict over the run as a word. If no verdict over the run was requested,
+    /// returns the verdict at the start.
     #[must_use]
     pub fn verdict(&self) -> &'static str {
         let of_run = self.of_run.as_ref().map(|run| run.verdict);
@@ -188,7 +188,7 @@ pub struct SpecialDocument {
 /// Verdicts and peaks of the reactions of a run.
 #[derive(Clone, Copy)]
 pub struct RunVerdicts<'a> {
-    /// Verdicts of the run by stretches of time.
+    /// Verdicts on each stretch of time of the run.
     pub stretches: &'a Stretches,
     /// The groups of the scene by name, and the sensitivities of their numbers to the data at the
     /// start.
@@ -206,7 +206,7 @@ impl RunVerdicts<'_> {
         Some(document)
     }
 
-    /// Returns the peaks of the magnitudes of a joint or drive, which has this sensitivity.
+    /// Returns the peaks of the magnitudes of a joint or drive with this sensitivity.
     fn magnitude(
         &self,
         id: ConstraintId,
@@ -223,9 +223,9 @@ impl RunVerdicts<'_> {
         (force.is_some() || moment.is_some()).then_some(MagnitudePeakDocument { force, moment })
     }
 
-    /// Builds the document of a number; the name is used in sentences. If the number is unique only
-    /// at the instant of the start, and not on the stretch after it, its sensitivity at the start
-    /// is left out.
+    /// Builds the document of a number. The name is used in sentences. If the number is unique only
+    /// at the instant of the start, and not on the following stretch, the sensitivity at the start
+    /// is omitted.
     fn number(
         &self,
         quantity: Quantity,

@@ -14,8 +14,8 @@ use crate::refusal::Refusal;
 #[cfg(target_os = "linux")]
 use super::linux::available;
 
-/// The memory that computations may use; a computation that needs more is rejected before the
-/// memory is allocated.
+/// The memory that computations may use. A computation that needs more memory is rejected before
+/// the memory is allocated.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Budget {
     /// The limit; `None` means the available memory of the machine.
@@ -59,8 +59,8 @@ impl Budget {
         Err(Refusal::stopped(words).coded(const { Code::new(7) }))
     }
 
-    /// Reads a scene, given by its name and its text, and builds its mechanism, if the memory is
-    /// sufficient for the mechanism and its verdicts.
+    /// Reads a scene, given by its name and its text, and builds the mechanism. Returns an error if
+    /// the memory is not sufficient for the mechanism and its verdicts.
     ///
     /// # Errors
     /// Returns an error if the memory is not sufficient, and the errors of the scene.
@@ -109,7 +109,7 @@ impl Budget {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Bytes(pub u64);
 
-/// Units that the parser accepts, larger ones first.
+/// Units that the parser accepts. Larger units come first.
 const UNITS: [(&str, u64); 9] = [
     ("TiB", 1 << 40),
     ("GiB", 1 << 30),

@@ -3,8 +3,9 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// Returns the memory (bytes) that is still available, if the system reports it: the least of the
-/// machine, of the control groups of this process, and of its address space.
+/// Returns the memory (bytes) that is still available, if the system reports it. The result is the
+/// smallest of three values: the available memory of the machine, of the control groups of this
+/// process, and of the address space of this process.
 pub(super) fn available() -> Option<u64> {
     let read = |path: &Path| fs::read_to_string(path).ok();
     let machine =
@@ -27,15 +28,16 @@ pub(super) fn available() -> Option<u64> {
     machine.into_iter().chain(groups).chain(space).min()
 }
 
-/// Returns the number of bytes from a line, in kB, of a system table.
+/// Returns a number of bytes from a line of a system table. The line contains the number in kB.
 fn kibibytes(text: &str, name: &str) -> Option<u64> {
     let line = text.lines().find_map(|l| l.strip_prefix(name))?;
     let number: u64 = line.split_whitespace().next()?.parse().ok()?;
     Some(number << 10)
 }
 
-/// Lists directories of the control groups that limit the memory of a process, from its `cgroup`
-/// file: its own group and all enclosing groups, of both versions.
+/// Lists the directories of the control groups that limit the memory of a process. The argument is
+/// the text of the `cgroup` file of the process. The list contains the group of the process and all
+/// enclosing groups, for both versions of control groups.
 fn folders_of_groups(text: &str) -> Vec<PathBuf> {
     let mut folders = Vec::new();
     for line in text.lines() {

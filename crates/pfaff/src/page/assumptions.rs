@@ -1,5 +1,5 @@
-//! The assumptions of a run in plain words: what the model contains, what it leaves out, and how
-//! accurate its data and its motion are. Every page of a run has this section.
+//! The assumptions of a run in plain words: the content of the model, the omitted effects, and the
+//! accuracy of the data and of the motion. Every page of a run has this section.
 
 use model::words::{estimate, listed, rounded, short};
 use model::{ContactLimits, System};
@@ -62,7 +62,7 @@ fn sentences(page: &RunPage<'_>, run: &RunDocument) -> Vec<String> {
     all
 }
 
-/// Names the force elements, which are the only source of friction.
+/// Names the force elements. They are the only source of friction.
 fn forces(page: &RunPage<'_>) -> String {
     let loads = page.mechanism.loads();
     let names: Vec<String> = loads
@@ -191,7 +191,7 @@ fn start(run: &RunDocument) -> String {
     }
 }
 
-/// States which rows are redundant, and what depends on their choice.
+/// States which rows are redundant, and which results depend on the choice of the redundant rows.
 fn choice(page: &RunPage<'_>, run: &RunDocument) -> Vec<String> {
     let redundancy = page.analysis.map(|a| a.ranks.redundancy);
     let mut all = Vec::new();

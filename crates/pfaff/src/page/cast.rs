@@ -17,8 +17,8 @@ pub(super) struct Cast {
 }
 
 impl Cast {
-    /// Selects a small mechanism as a whole; of a large mechanism the first bodies, with the joints
-    /// and drives among them.
+    /// Selects a small mechanism as a whole. For a large mechanism, selects the first bodies, and
+    /// the joints and drives between these bodies.
     pub(super) fn of(mechanism: &Mechanism) -> Self {
         let groups = &mechanism.layout().groups;
         let bodies = mechanism.bodies().len();

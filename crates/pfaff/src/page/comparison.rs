@@ -1,5 +1,5 @@
-//! Several choices for reactions that are not unique, along a run: plain data, so that no curve of
-//! a page appears to be a unique number.
+//! Several choices for reactions that are not unique, along a run. With these data, no curve of a
+//! page appears to be a unique number.
 
 /// Joints and drives that share loads, with their reactions for different choices.
 #[derive(Clone, Debug, PartialEq)]
@@ -17,24 +17,24 @@ pub struct Comparison {
 pub struct ComparedChoice {
     /// Name of the choice.
     pub label: String,
-    /// For each frame and each reaction the components of the force and the torque on the first
-    /// body (N, N·m), ground axes; NaN if the choice does not determine it.
+    /// For each frame and each reaction, the components of the force and the torque on the first
+    /// body (N, N·m) in ground axes. A component is NaN if the choice does not determine it.
     pub values: Vec<Vec<Vec<f64>>>,
 }
 
 /// The components of a reaction that the model leaves undetermined at an instant.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Freedom {
-    /// In the plane, angle of a direction in which the force is free (rad, global); NaN if the
-    /// force is determined or unknown.
+    /// In the plane, the angle of a direction in which the force is free (rad, global). The angle
+    /// is NaN if the force is determined or unknown.
     pub angle: f64,
     /// Whether the force is also free across that direction.
     pub plane: bool,
-    /// Whether the components of [`model::SpaceKind::components`] are free; the rest is false. A
-    /// reaction may be determined in global components at one time and not at another.
+    /// For each component of [`model::SpaceKind::components`], whether it is free. The remaining
+    /// flags are false. A global component may be determined at one time and free at another time.
     pub components: [bool; 6],
-    /// The same flags along the axes of the first body, along which a component may always be
-    /// determined.
+    /// The same flags for the axes of the first body. A component along such an axis may be
+    /// determined at all times.
     pub in_body: [bool; 6],
 }
 

@@ -1,5 +1,5 @@
 //! Curves other than the reactions of single joints: sums of reactions, requested plots, joint
-//! coordinates, drives, energies and residuals; and the determined curves of a page for print.
+//! coordinates, drives, energies and residuals. Also the determined curves of a page for print.
 
 use model::{ConstraintId, Load, Mechanism, System};
 use serde::Serialize;
@@ -69,7 +69,7 @@ impl Chart {
     }
 }
 
-/// Whether a value of a curve differs from the first one.
+/// Whether a value of a curve differs from the first value.
 fn varies(curve: &Channel) -> bool {
     match curve {
         Channel::Constant(_) => false,
@@ -131,8 +131,9 @@ pub(super) const GROUPS: &str = "group-curves";
 pub(super) const PLOTS: &str = "plot-curves";
 pub(super) const PRINTED: &str = "printed-curves";
 
-/// Returns the curves of a page for print: the requested plots, or otherwise sums of reactions,
-/// determined reactions, measures and loads that change during the run.
+/// Returns the curves of a page for print. These are the requested plots. If no plots are
+/// requested, they are sums of reactions, determined reactions, measures and loads that change
+/// during the run.
 fn printed(page: &RunPage<'_>, cast: &Cast) -> Vec<Chart> {
     if !page.plots.is_empty() {
         return plots(page, PRINTED).collect();
@@ -151,8 +152,8 @@ fn printed(page: &RunPage<'_>, cast: &Cast) -> Vec<Chart> {
     all.collect()
 }
 
-/// Returns the determined components of a reaction, one chart for each unit. If the component that
-/// the definition names is determined throughout, it is the only one.
+/// Returns the determined components of a reaction, with one chart for each unit. If the component
+/// that the definition names is determined throughout, the chart contains only this component.
 fn reaction(page: &RunPage<'_>, id: ConstraintId) -> Vec<Chart> {
     let group = &page.mechanism.layout().groups[id.0];
     let noise = values::noise(&page.recording.frames);
@@ -207,7 +208,7 @@ fn noise_of(page: &RunPage<'_>, unit: &str) -> f64 {
     }
 }
 
-/// Returns the chart of a sum of reactions; `None` if there is nothing to draw.
+/// Returns the chart of a sum of reactions. Returns `None` if there is nothing to draw.
 fn group(page: &RunPage<'_>, plot: &Plot) -> Option<Chart> {
     let curve = plot.curves.first()?;
     if curve.verdict != "unique" && curve.is_empty() && curve.band.is_none() {
@@ -263,8 +264,8 @@ fn measures<'p>(page: &'p RunPage<'_>) -> impl Iterator<Item = Chart> + 'p {
     })
 }
 
-/// Returns the loads of force elements at the frames, one chart for each unit of an element.
-/// Components that are always zero are left out.
+/// Returns the loads of force elements at the frames, with one chart for each unit of an element.
+/// Components that are always zero are omitted.
 fn loads<'p>(page: &'p RunPage<'_>) -> impl Iterator<Item = Chart> + 'p {
     let (mechanism, frames) = (page.mechanism, &page.recording.frames);
     let (space, mut loads) = (mechanism.space(), mechanism.loads());
@@ -359,7 +360,7 @@ impl EnergyCurves {
     }
 }
 
-/// Returns log₁₀ of absolute values; a zero value becomes a gap.
+/// Returns log₁₀ of absolute values. A zero value becomes a gap.
 fn logarithmic(values: impl Iterator<Item = f64> + Clone) -> Channel {
     Channel::new(values.map(|x| x.abs().log10()))
 }

@@ -214,8 +214,8 @@ fn bounds(
     .collect()
 }
 
-/// Returns the components of a reaction with their verdicts over the run, or otherwise at the
-/// start.
+/// Returns the components of a reaction with their verdicts over the run. Without a run, the
+/// verdicts are the verdicts at the start.
 fn components(page: &RunPage<'_>, id: ConstraintId) -> Vec<Component> {
     let group = &page.mechanism.layout().groups[id.0];
     if let Some(own) = page.stretches.and_then(|s| s.reactions.get(id.0)) {
@@ -247,7 +247,7 @@ fn components(page: &RunPage<'_>, id: ConstraintId) -> Vec<Component> {
         .collect()
 }
 
-/// Returns the reaction at the frames; numbers that are not determined become gaps.
+/// Returns the reaction at the frames. Numbers that are not determined become gaps.
 fn reaction(page: &RunPage<'_>, id: ConstraintId, noise: f64) -> Option<Reaction> {
     let (frames, space) = (&page.recording.frames, page.mechanism.space());
     if !frames.iter().all(|f| f.reactions.len() > id.0) {
@@ -271,7 +271,7 @@ fn reaction(page: &RunPage<'_>, id: ConstraintId, noise: f64) -> Option<Reaction
     })
 }
 
-/// Converts a comparison to data; `None` if one of its joints is not drawn.
+/// Converts a comparison to data. Returns `None` if one of its joints is not drawn.
 fn comparison<'a>(
     c: &'a Comparison,
     cast: &Cast,
@@ -337,8 +337,8 @@ fn unwound(freedom: impl Iterator<Item = Freedom>) -> Vec<f64> {
         .collect()
 }
 
-/// Returns the number of values in a row, weighted so that a recording stays small: the stored
-/// values, with an additional weight for each value that is shown.
+/// Returns a weighted number of values in a row, which limits the size of a recording. Each stored
+/// value counts once, and each value that is shown has an additional weight.
 pub(super) fn numbers_per_row(mechanism: &Mechanism) -> usize {
     let layout = mechanism.layout();
     let kept = layout.n_q + layout.n_v + layout.rows() + 4 * layout.groups.len();

@@ -16,7 +16,7 @@ use report::page::{add, safe, short};
 
 const STYLE: &str = include_str!("report.css");
 
-/// Scripts in the order of their use; together they form one module.
+/// Scripts in the order of their use. Together, the scripts form one module.
 const SCRIPTS: [&str; 17] = [
     include_str!("script/data.js"),
     include_str!("script/poses.js"),
@@ -37,7 +37,7 @@ const SCRIPTS: [&str; 17] = [
     include_str!("script/main.js"),
 ];
 
-/// Content security policy: the page loads no external resource; only data in the page itself are
+/// Content security policy: the page loads no external resource. Only data in the page itself are
 /// allowed as addresses.
 const POLICY: &str =
     "default-src 'none'; style-src 'unsafe-inline'; script-src 'unsafe-inline'; img-src data:";
@@ -116,7 +116,8 @@ fn footer(page: &RunPage<'_>) -> String {
     let mut out = String::from("\"");
     for letter in parts.join(" · ").chars() {
         match letter {
-            // Every character may be written as its number. These would end the text or the style.
+            // Every character may be written as its number. The following characters would end the
+            // text or the style.
             '"' | '\\' | '<' | '&' => add(&mut out, format_args!("\\{:x} ", u32::from(letter))),
             letter if letter.is_control() => out.push(' '),
             letter => out.push(letter),
@@ -556,7 +557,7 @@ fn curves(out: &mut String, page: &RunPage<'_>, run: &RunDocument, curves: &Curv
     out.push_str("</section>\n");
 }
 
-/// Lists the events; events with the same text share a line.
+/// Lists the events. Events with the same text share a line.
 fn events(out: &mut String, run: &RunDocument) {
     if run.events.is_empty() {
         return;
@@ -590,8 +591,8 @@ fn close(out: &mut String, data: &Data<'_>) {
     out.push_str("</script>\n</body>\n</html>\n");
 }
 
-/// Returns JSON that cannot end a script: `<` occurs only in strings, in which it may be written as
-/// an escape.
+/// Returns JSON that cannot end a script. The character `<` occurs only in strings, and in strings
+/// it may be written as an escape.
 fn harmless(json: &str) -> String {
     json.replace('<', "\\u003c")
 }
@@ -639,11 +640,11 @@ mod tests {
 
     const RECORDER: &str = include_str!("script/recorder.js");
 
-    /// This script uses a context to find the element under the pointer, and paints nothing.
+    /// This script uses a context only to find the element under the pointer. It paints nothing.
     const POINTER: &str = include_str!("script/pointer.js");
 
-    /// Members of the context that only the screen has: a hatch becomes an SVG pattern, and a `Pen`
-    /// draws the symbols that the screen draws as stamps.
+    /// Members of the context that only the screen has. In the SVG file, a hatch becomes an SVG
+    /// pattern, and a `Pen` draws the symbols that the screen draws as stamps.
     const OF_THE_SCREEN: [&str; 2] = ["createPattern", "drawImage"];
 
     /// Returns the members of `context` that a script uses.

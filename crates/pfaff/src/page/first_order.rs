@@ -1,5 +1,5 @@
-//! First-order results at the start, for the picture: free motions as velocities of bodies, and
-//! self-stresses as loads on the first bodies of joints.
+//! First-order results at the start, for the picture. Free motions are velocities of bodies, and
+//! self-stresses are loads on the first bodies of joints.
 
 use std::collections::HashMap;
 
@@ -113,8 +113,8 @@ fn stresses<'a>(page: &'a RunPage<'_>, cast: &Cast) -> Vec<Stress<'a>> {
     dependencies.iter().filter_map(stress).take(MOST).collect()
 }
 
-/// Converts the coefficients of a dependency to multipliers of all rows; `None` if a row does not
-/// exist.
+/// Converts the coefficients of a dependency to multipliers of all rows. Returns `None` if a row
+/// does not exist.
 fn multipliers(mechanism: &Mechanism, dependency: &DependencyDocument) -> Option<Vec<f64>> {
     let mut lambda = vec![0.0; mechanism.layout().rows()];
     for (row, coefficient) in dependency.rows.iter().zip(&dependency.coefficients) {

@@ -1,5 +1,5 @@
-//! Information needed to reproduce the page: scene, options, versions and numbers of the run; and a
-//! list of the parts that the page omits.
+//! The scene, options, versions and numbers of the run that are needed to reproduce the page. Also
+//! a list of the parts that the page omits.
 
 use dynamics::INDEPENDENT_ROWS;
 use model::System;
@@ -43,7 +43,7 @@ pub(super) fn section(out: &mut String, page: &RunPage<'_>, cast: &Cast, curves:
     out.push_str("</section>\n");
 }
 
-/// Writes the text of the scene and the plan as annexes, which are printed only if they are open.
+/// Writes the text of the scene and the plan as annexes. An annex is printed only if it is open.
 pub(super) fn annexes(out: &mut String, page: &RunPage<'_>) {
     out.push_str(
         "<section id=\"annexes\" aria-labelledby=\"annexes-title\">\n<h2 id=\"annexes-title\" class=\"screen\">Annexes</h2>\n\
@@ -183,7 +183,7 @@ fn pair(out: &mut String, what: &str, value: &str) {
     add(out, format_args!("<dt>{what}</dt><dd>{value}</dd>\n"));
 }
 
-/// Returns sentences on the omitted parts.
+/// Returns sentences about the omitted parts.
 pub(super) fn left_out(page: &RunPage<'_>, cast: &Cast, curves: &Curves) -> Vec<String> {
     let mut told = Vec::new();
     let groups = page.mechanism.layout().groups.len();

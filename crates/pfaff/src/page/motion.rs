@@ -22,10 +22,11 @@ const VIEWS: &str = "<div class=\"views\" role=\"group\" aria-label=\"View\">\
 <button id=\"perspective\" type=\"button\" aria-label=\"Perspective\" aria-pressed=\"false\" title=\"Perspective\">⬡</button></div>\n\
 <p id=\"view\" class=\"unseen\" aria-live=\"polite\"></p>\n";
 
-/// Description of the keys of a picture in space, for readers who cannot see it.
+/// Description of the keys of a picture in space, for readers who cannot see the picture.
 const SPATIAL_KEYS: &str = ". Arrow keys rotate the view. Shift with an arrow key moves the view. Plus and minus zoom. The keys x, y, z and i select standard views. The key p switches the perspective on or off";
 
-/// Controls that only the page of a run has; `$bodies` stands for the title of the list of bodies.
+/// Controls that only the page of a run has. `$bodies` is replaced by the title of the list of
+/// bodies.
 const OF_RUN: &str = "<fieldset class=\"option\"><legend>Arrows</legend><input id=\"arrows\" type=\"range\" min=\"-2\" max=\"2\" \
 step=\"0.1\" value=\"0\" aria-label=\"Length of arrows\"></fieldset>\n\
 <fieldset class=\"option\"><legend>$bodies</legend><div id=\"bodies\"></div></fieldset>\n";

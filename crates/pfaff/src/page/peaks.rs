@@ -1,6 +1,6 @@
-//! The largest force and the largest moment of each reaction over the run, with their times, as a
-//! table. A number that the model does not determine has no peak: it is shown with the bound for
-//! joints of any stiffness, or it is omitted.
+//! A table of the largest force and the largest moment of each reaction over the run, with their
+//! times. A number that the model does not determine has no peak. The table shows the bound of such
+//! a number for joints of any stiffness, or omits the number.
 
 use model::words::short;
 use model::{Mechanism, System};
@@ -26,7 +26,7 @@ struct Peak {
 }
 
 impl Peak {
-    /// Returns the peak; a value not larger than `noise` counts as zero.
+    /// Returns the peak. A value not larger than `noise` counts as zero.
     fn above(self, noise: f64) -> Self {
         let value = if self.value.abs() <= noise {
             0.0
@@ -62,8 +62,8 @@ pub(super) fn table(out: &mut String, page: &RunPage<'_>) {
     out.push_str("</section>\n");
 }
 
-/// Writes the determined peaks for print, a line for each number, and lists the reactions without
-/// such a number.
+/// Writes the determined peaks for print, with a line for each number. Also lists the reactions
+/// without a determined number.
 pub(super) fn determined(out: &mut String, page: &RunPage<'_>) {
     let lines = lines(page);
     let measures = measures(page);
@@ -150,7 +150,7 @@ fn measures<'p>(page: &RunPage<'p>) -> Vec<PeakNumber<'p>> {
             t: frame.t,
         });
         let values = values.filter(|peak| peak.value.is_finite());
-        // Of equal values the first one is used.
+        // If several values are equal, the first value is used.
         let least = values
             .clone()
             .reduce(|a, b| if b.value < a.value { b } else { a });
@@ -237,7 +237,7 @@ fn lines<'p>(page: &'p RunPage<'p>) -> Vec<PeakLine<'p>> {
     lines.chain(groups).chain(loads).collect()
 }
 
-/// Returns a peak if the model determines its value; values not larger than `noise` count as zero.
+/// Returns a peak if the model determines its value. Values not larger than `noise` count as zero.
 fn determined_peak(peak: &PeakDocument, noise: f64) -> Option<Peak> {
     let (value, t) = (peak.value.determined()?, peak.time);
     Some(Peak { value, t }.above(noise))
@@ -262,11 +262,12 @@ struct PeakLine<'a> {
     components: Vec<(Option<&'a str>, &'static str, Peak)>,
     /// Verdicts of the components, if the reaction is not unique.
     tracks: Option<&'a ByName<RunNumberDocument>>,
-    /// When the numbers hold.
+    /// The intervals on which the numbers are determined.
     holds: String,
 }
 
-/// States when the numbers hold, for a reaction that is not unique over the run.
+/// States on which intervals the numbers are determined, for a reaction that is not unique over the
+/// run.
 fn holds(components: &ByName<RunNumberDocument>) -> String {
     let parts = components.0.iter().filter_map(|(name, number)| {
         let on = determined_on(&number.of_run)?;
@@ -282,8 +283,8 @@ fn holds(components: &ByName<RunNumberDocument>) -> String {
     }
 }
 
-/// Returns the intervals on which a number is determined, such as ` on 0 … 1 s`: an empty text if
-/// it is determined throughout, and `None` if it is not determined.
+/// Returns the intervals on which a number is determined, such as ` on 0 … 1 s`. The text is empty
+/// if the number is determined throughout. Returns `None` if the number is not determined.
 fn determined_on(of_run: &TrackDocument) -> Option<String> {
     if of_run.verdict == "unique" {
         return Some(String::new());
@@ -302,12 +303,13 @@ struct PeakNumber<'a> {
     peak: Peak,
     /// Whether the number is an upper bound of a number that is not determined.
     is_bound: bool,
-    /// When the number is determined.
+    /// The intervals on which the number is determined.
     determined: String,
 }
 
 impl PeakNumber<'_> {
-    /// Writes a line with one column for each unit. The name is written at its first line.
+    /// Writes a line with one column for each unit. Only the first line of an item contains its
+    /// name.
     fn write(&self, out: &mut String, is_first: bool, units: &[&'static str], scale: &Scale) {
         let name = if is_first {
             safe(self.name)
@@ -348,7 +350,7 @@ impl PeakNumber<'_> {
 }
 
 impl<'a> PeakLine<'a> {
-    /// The line of a group; `None` for a group without numbers.
+    /// Returns the line of a group. Returns `None` for a group without numbers.
     fn of_group(
         (name, group): &'a (String, RunGroupDocument),
         page: &RunPage<'_>,
@@ -364,7 +366,7 @@ impl<'a> PeakLine<'a> {
             Some((number, unit(number)?, determined_peak(peak?, noise)?))
         };
         let (components, holds) = if group.components.is_empty() {
-            // Without a column, the reactions are only analysed together.
+            // Without a column, the group only analyses its reactions together.
             unit(None)?;
             let determined = determined_on(&group.of_run);
             let holds = match determined.as_deref() {
@@ -394,7 +396,7 @@ impl<'a> PeakLine<'a> {
         })
     }
 
-    /// Returns the numbers one by one; the force and the moment are magnitudes.
+    /// Returns the numbers one by one. The force and the moment are magnitudes.
     fn apart(&self) -> Vec<PeakNumber<'a>> {
         let number = |quantity: &str, unit, peak, determined: String| PeakNumber {
             name: self.name,
@@ -440,7 +442,7 @@ impl<'a> PeakLine<'a> {
         totals.chain(components).collect()
     }
 
-    /// The line of a force element; lengths and angles have both extreme values.
+    /// Returns the line of a force element. Lengths and angles have both extreme values.
     fn of_load((name, load): &'a (String, LoadOfRunDocument), noise: f64) -> Self {
         let peak = |extreme: ExtremeDocument| Peak {
             value: extreme.value,

@@ -14,13 +14,14 @@ use report::Recording;
 pub struct RunPage<'a> {
     /// The mechanism that was run.
     pub mechanism: &'a Mechanism,
-    /// Verdicts at the start, with their explanation; `None` if there is no analysis.
+    /// Verdicts at the start, with their explanation. `None` if there is no analysis.
     pub analysis: Option<&'a AnalysisDocument>,
     /// Deletions that would make non-unique reactions unique.
     pub hints: &'a [MakeUniqueDocument],
     /// Kind of the page.
     pub shows: Shows<'a>,
-    /// The verdicts of the run by stretches of time; `None` without a run or its reactions.
+    /// The verdicts on each stretch of time of the run. `None` if there is no run, or if no
+    /// reactions were requested.
     pub stretches: Option<&'a Stretches>,
     /// Recorded rows of the run.
     pub recording: &'a Recording,
@@ -28,8 +29,7 @@ pub struct RunPage<'a> {
     pub comparisons: &'a [Comparison],
     /// Bounds of components that are not unique, if bounds were requested.
     pub bands: &'a [Band],
-    /// Sums of reactions of groups, each with its bounds if it is not unique and bounds were
-    /// requested.
+    /// Sums of reactions of groups. A sum that is not unique has bounds, if bounds were requested.
     pub groups: &'a [Plot],
     /// Plots that the scene requests.
     pub plots: &'a [Plot],
@@ -41,13 +41,13 @@ pub struct RunPage<'a> {
     pub scene: WrittenScene<'a>,
     /// Options of the run, as text.
     pub options: &'a [(String, String)],
-    /// Sentences on the omitted parts.
+    /// Sentences about the omitted parts.
     pub left_out: &'a [String],
     /// Figure of error against run time, as SVG, if there is one.
     pub work_precision: Option<&'a str>,
 }
 
-/// Bounds of a component of a reaction at the frames; NaN without bounds.
+/// Bounds of a component of a reaction at the frames. A frame without bounds has NaN.
 #[derive(Clone, Debug)]
 pub struct Band {
     /// The joint or drive.
@@ -72,13 +72,13 @@ pub struct Plot {
 /// A number of a run at the frames.
 #[derive(Clone, Debug)]
 pub struct PlotCurve {
-    /// Name of its column in the tables.
+    /// Name of the column in the tables.
     pub name: String,
     /// The verdict over the run.
     pub verdict: &'static str,
-    /// The values in the SI unit; NaN where the model does not determine them.
+    /// The values in the SI unit. A value is NaN if the model does not determine it.
     pub values: Vec<f64>,
-    /// The smallest and the largest value at each frame, NaN without bounds.
+    /// The smallest and the largest value at each frame. Both are NaN without bounds.
     pub band: Option<Vec<[f64; 2]>>,
 }
 
@@ -148,8 +148,8 @@ impl RunPage<'_> {
         of_run.or(self.analysis.map(|a| &a.ranks.freedoms))
     }
 
-    /// Returns name and verdict of joints and drives over the run, or otherwise at the start, and
-    /// whether they are ill-determined.
+    /// Returns the name and the verdict of each joint and drive, and whether it is ill-determined.
+    /// The verdict is the verdict over the run. Without a run, it is the verdict at the start.
     pub(super) fn verdicts(&self) -> Vec<(&str, &'static str, bool)> {
         match (self.run(), self.analysis) {
             (Some(run), _) => {
@@ -180,10 +180,10 @@ pub struct DriveCurve {
     pub values: Vec<f64>,
 }
 
-/// How a page was made.
+/// The origin of a page.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Origin {
-    /// The command line, or the caller if there was none.
+    /// The command line. If there was no command line, the name of the caller.
     pub command: String,
     /// Versions of program and compiler.
     pub versions: String,

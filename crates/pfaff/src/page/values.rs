@@ -1,4 +1,4 @@
-//! Values of reactions at the frames, as far as the model determines them.
+//! Values of reactions at the frames, if the model determines them.
 
 use model::ConstraintId;
 use report::Frame;
@@ -9,7 +9,7 @@ use super::run_page::RunPage;
 /// A force below this fraction of the largest force counts as rounding.
 const NOISE: f64 = 1e-12;
 
-/// Returns the values of a component, or of the named component, at the frames; values that are not
+/// Returns the values of a component, or of the named component, at the frames. Values that are not
 /// determined are NaN.
 pub(super) fn determined(page: &RunPage<'_>, id: ConstraintId, name: &'static str) -> Vec<f64> {
     let own = page.stretches.and_then(|s| s.reactions.get(id.0));
@@ -27,8 +27,8 @@ pub(super) fn determined(page: &RunPage<'_>, id: ConstraintId, name: &'static st
     values.collect()
 }
 
-/// Size of a force that counts as rounding (N); torques about reference points are compared with
-/// the same number.
+/// Returns the size of a force that counts as rounding (N). Torques about reference points are
+/// compared with the same number.
 pub(super) fn noise(frames: &[Frame]) -> f64 {
     NOISE * largest_force(frames)
 }
@@ -38,7 +38,7 @@ fn largest_force(frames: &[Frame]) -> f64 {
     largest(all.flat_map(|r| r.force).filter(|x| x.is_finite()))
 }
 
-/// Returns the largest absolute value; zero if there are no values.
+/// Returns the largest absolute value. Returns zero if there are no values.
 pub(super) fn largest(values: impl Iterator<Item = f64>) -> f64 {
     values.fold(0.0, |a, x| if x.abs() > a { x.abs() } else { a })
 }

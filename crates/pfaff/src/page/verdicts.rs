@@ -49,7 +49,7 @@ pub(super) fn section(out: &mut String, page: &RunPage<'_>) {
     out.push_str("</section>\n");
 }
 
-/// If there are too many reactions, those that are not unique, or ill-determined, come first.
+/// If there are too many reactions, reactions that are not unique or are ill-determined come first.
 fn selected(all: &[ReactionDocument]) -> Vec<&ReactionDocument> {
     if all.len() <= LINES {
         return all.iter().collect();
@@ -138,7 +138,8 @@ fn reason(r: &ReactionDocument) -> String {
     }
 }
 
-/// Explains why a reaction is unique or not, without the data on which it depends.
+/// Explains why a reaction is unique or not. The explanation does not contain the data on which the
+/// reaction depends.
 fn because(r: &ReactionDocument) -> String {
     match (&r.explanation, r.settled, r.wrench.verdict) {
         (Some(text), ..) => {
@@ -204,7 +205,7 @@ pub(super) fn notes(page: &RunPage<'_>) -> Vec<String> {
     analysis.warnings.iter().cloned().chain(notes).collect()
 }
 
-/// Lists deletions that would make reactions unique; reactions with the same deletions share a
+/// Lists deletions that would make reactions unique. Reactions with the same deletions share a
 /// sentence.
 fn remedies(hints: &[MakeUniqueDocument]) -> Vec<String> {
     let ways = |hint: &MakeUniqueDocument| {
@@ -240,7 +241,7 @@ fn remedies(hints: &[MakeUniqueDocument]) -> Vec<String> {
         .collect()
 }
 
-/// Writes sentences as a list; names are enclosed in grave accents.
+/// Writes sentences as a list. In the sentences, names are enclosed in grave accents.
 pub(super) fn some(out: &mut String, sentences: &[String]) {
     let few = &sentences[..sentences.len().min(MOST)];
     out.push_str("<ul>\n");

@@ -1,4 +1,4 @@
-//! Which reactions are determined, and why are the others not?
+//! Which reactions are determined, and why are the other reactions not determined?
 
 pub mod about;
 mod addition;
@@ -112,8 +112,8 @@ impl Analyze {
             let document = document::of(self, of, &configuration, control)?;
             Ok::<_, Refusal>((configuration, document))
         };
-        // A motion is computed step by step, so the verdicts at the start can run in another
-        // thread.
+        // A motion is computed step by step in one thread, so the verdicts at the start can be
+        // computed in another thread.
         let (of_configuration, along) = match self.along {
             Some(along) => crate::both(of_configuration, || Some(judge(of, study, along, control))),
             None => (of_configuration(), None),

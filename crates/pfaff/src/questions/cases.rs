@@ -22,7 +22,7 @@ use crate::start::Start;
 use crate::study;
 use crate::words::{Block, SceneUnits, scene_units};
 
-/// The files next to the directories of the cases.
+/// The files that are written next to the directories of the cases.
 const FAMILY: Family = Family(&[TABLE, SUMMARY]);
 
 /// Code of an answer with cases that did not reach their end.

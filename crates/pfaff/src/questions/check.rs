@@ -84,7 +84,7 @@ impl Question for Check {
     }
 }
 
-/// Returns sentences on ill-determined reactions, then on ill-determined sums.
+/// Returns sentences about ill-determined reactions, then about ill-determined sums.
 fn fragile(start: &ConfigurationAnalysis<'_>) -> Result<Vec<String>, StudyError> {
     let layout = start.mechanism.layout();
     let reactions = start.sensitivities()?;

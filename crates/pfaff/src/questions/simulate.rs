@@ -133,8 +133,8 @@ fn cut(directory: &OutputDirectory, begun: Option<&str>) -> String {
     cut_tables(directory, begun, FAMILY, &kept)
 }
 
-/// Gives the tables of complete rows their final names and writes a summary that states that they
-/// are partial. `kept` describes the files that remain in the directory `{}`.
+/// Gives the tables, with their complete rows, their final names, and writes a summary which states
+/// that the tables are partial. `kept` describes the files that remain in the directory `{}`.
 pub(super) fn cut_tables(
     directory: &OutputDirectory,
     begun: Option<&str>,

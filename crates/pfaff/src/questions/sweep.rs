@@ -128,7 +128,7 @@ impl Sweep {
         let mut sweep = sweep.map_err(refused)?;
         let threads = control.threads.map_or(0, NonZeroUsize::get);
         if of.budget.limit.is_some() {
-            // A scene without a consistent start may have one with other numbers.
+            // A scene without a consistent start may have a consistent start with other numbers.
             let study = of.study(control).ok();
             let of_run = study.and_then(|study| study.memory(of.text.len()).ok());
             let of_all = of_run.unwrap_or(0).saturating_mul(threads.max(1));
@@ -176,7 +176,7 @@ impl Sweep {
     }
 }
 
-/// Ends the attempt properly, so that none of its runs counts as the cause of a crash, and writes
+/// Ends the attempt properly, so that no run of the attempt counts as the cause of a crash. Writes
 /// the tables of the finished runs. `begun` is the name of the shard.
 fn cut(directory: &OutputDirectory, begun: Option<&str>) -> String {
     let out = directory.path();

@@ -57,7 +57,7 @@ impl Question for WorkPrecision {
             let study = of.prepared(&RunOptions::default(), control)?;
             Subject::of_study(study).map_err(|e| of.refusal(e))
         };
-        // All scenes are read before the first one is run.
+        // All scenes are read before the first run.
         let subjects = of.iter().map(subject).collect::<Result<Vec<_>, _>>()?;
         self.compared(&subjects, &[], control)
     }
@@ -65,7 +65,7 @@ impl Question for WorkPrecision {
 
 impl WorkPrecision {
     /// Performs the runs of these scenes, also with methods that are not part of pfaff. If a run is
-    /// stopped, the answer contains the runs before it.
+    /// stopped, the answer contains all earlier runs.
     ///
     /// # Errors
     /// Returns an error if no scene can be compared.

@@ -5,7 +5,7 @@ use scene::{Diagnostic, Severity};
 
 use super::visible;
 
-/// Largest number of problems that are shown; the others are counted.
+/// Largest number of problems that are shown. Further problems are counted.
 const SHOWN: usize = 50;
 
 /// Prints the problems of a scene with its lines and carets.
@@ -48,7 +48,7 @@ pub(super) fn render(name: &str, text: &str, diagnostics: &[Diagnostic], color: 
     if !color {
         rendered = uncoloured(&rendered);
     }
-    // If some problems are not listed, the last one states how many.
+    // If some problems are not listed, the last problem states their number.
     let is_listed = diagnostics.iter().all(|d| d.severity != Severity::Note);
     if diagnostics.len() > SHOWN {
         // The last problem may be only the number of unlisted problems.

@@ -15,7 +15,7 @@ use super::{Sweep, SweepError, gate};
 use crate::workers::Workers;
 
 /// A run counts as the cause of a crash if its process has ended this many times while it performed
-/// no other run. A single end may be an accident, or an impatient user may have stopped the
+/// no other run. A single end may have another cause; for example, a user may have stopped the
 /// process.
 const PROOF: u64 = 2;
 
@@ -92,8 +92,8 @@ impl<'a, P: FnMut(SweepProgress<'_>) + Send> Attempt<'a, P> {
         self.fails.load(Ordering::Relaxed) || (self.interrupted)()
     }
 
-    /// Performs the pending runs: first the runs that may have ended a process, alone, then the
-    /// others on several threads.
+    /// Performs the pending runs. Runs that may have ended a process are performed first, one at a
+    /// time. The other runs are then performed on several threads.
     pub(super) fn make(
         &self,
         known: &Records,
@@ -108,7 +108,8 @@ impl<'a, P: FnMut(SweepProgress<'_>) + Send> Attempt<'a, P> {
         let workers = Workers::start(threads);
         workers.install(|| self.make_alone(known, &suspects))?;
         let n = workers.number();
-        // If there are few runs, the groups are small, so that threads end at the same time.
+        // If there are few runs, the groups are small, so that all threads end at about the same
+        // time.
         let size = others.len().div_ceil(4 * n).clamp(1, TOGETHER);
         let groups: Vec<&[u64]> = others.chunks(size).collect();
         let next = AtomicUsize::new(0);
@@ -171,9 +172,9 @@ impl<'a, P: FnMut(SweepProgress<'_>) + Send> Attempt<'a, P> {
         })
     }
 
-    /// Returns the error of a sweep in which no run can begin, after the performed runs could not
-    /// begin. Returns `None` if a run can begin, or if this is unknown because a run may end the
-    /// process.
+    /// Returns the error of a sweep in which no run can begin. The function is called if none of
+    /// the performed runs could begin. Returns `None` if another run can begin, or if this is
+    /// unknown because a run may end the process.
     pub(super) fn none_begins(
         &self,
         made: Runs,

@@ -1,4 +1,4 @@
-//! A number of a scene with the values it takes.
+//! A number of a scene with its values in a sweep.
 
 use model::codes::Code;
 use std::fmt;
@@ -7,16 +7,16 @@ use std::str::FromStr;
 use scene::WithUnit;
 use serde::Deserialize;
 
-/// Largest number of runs of a sweep: their rows are stored in memory when tables are written.
+/// Largest number of runs of a sweep. The rows of all runs are in memory while tables are written.
 const RUNS_MAX: usize = 10_000_000;
 
-/// A key of a scene with the values it takes, such as `KEY=FROM:TO:N`, `KEY=FROM:TO:N:log` or
+/// A key of a scene with the values of its number, such as `KEY=FROM:TO:N`, `KEY=FROM:TO:N:log` or
 /// `KEY=1,2,5`.
 ///
-/// `FROM:TO:N` are N ≥ 2 values including both ends, evenly spaced, or evenly spaced in their
-/// logarithms. Both ends are exact. Numbers may have a unit, and both ends of a range must have the
-/// same unit, as in `L=300mm:500mm:21`. Then the values of the axis are in SI units; the scene
-/// receives them as written and checks the unit.
+/// `FROM:TO:N` means N ≥ 2 values including both ends. The values, or with `log` their logarithms,
+/// are evenly spaced. Both ends are exact. Numbers may have a unit, and both ends of a range must
+/// have the same unit, as in `L=300mm:500mm:21`. The values of an axis with a unit are in SI units.
+/// The scene receives the values in their written form and checks the unit.
 ///
 /// ```
 /// use pfaff::sweep::Axis;
@@ -57,7 +57,7 @@ pub enum AxisError {
         /// The value.
         value: String,
     },
-    /// Some values have a unit and others have no unit or a different one.
+    /// Some values have a unit, and other values have no unit or a different unit.
     #[error("`{text}`: {problem}")]
     Units {
         /// The text.
@@ -121,7 +121,7 @@ impl Axis {
         &self.key
     }
 
-    /// Whether the values of the axis have no unit: then they are in the units of the scene.
+    /// Whether the values of the axis have no unit. Such values are in the units of the scene.
     pub(super) fn is_bare(&self) -> bool {
         self.written.is_none()
     }
@@ -154,7 +154,7 @@ impl FromStr for Axis {
         let form = || AxisError::Form {
             text: text.to_owned(),
         };
-        // Names may contain the sign `=`, numbers do not.
+        // Names may contain the sign `=`, but numbers do not.
         let (key, values) = text.rsplit_once('=').ok_or_else(form)?;
         if key.is_empty() {
             return Err(form());
@@ -243,7 +243,7 @@ impl<'a> Number<'a> {
         }
     }
 
-    /// Converts another number with the same unit to SI; without a unit the number is unchanged.
+    /// Converts another number with the same unit to SI. Without a unit, the number is unchanged.
     fn in_si(&self, number: f64) -> f64 {
         self.unit.map_or(number, |unit| unit.in_si(number))
     }
@@ -268,8 +268,8 @@ impl Spacing {
         match self {
             _ if k == 0 => from,
             _ if k == last => to,
-            // The result is rounded once if the ends are whole numbers, so that 0:1:11 contains
-            // 0.3.
+            // If the ends are whole numbers, the result is rounded only once, so that 0:1:11
+            // contains 0.3.
             Self::Even if (from.abs() + to.abs()) * (last as f64) < f64::MAX => {
                 (from * (last - k) as f64 + to * k as f64) / last as f64
             }
@@ -283,7 +283,7 @@ impl Spacing {
     }
 }
 
-/// All combinations of the values of several axes; the last axis varies fastest.
+/// All combinations of the values of several axes. The last axis varies fastest.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Grid {
     pub(super) axes: Vec<Axis>,
@@ -305,7 +305,7 @@ impl Grid {
         Ok(Self { axes, len })
     }
 
-    /// Returns the values of a combination, counted from 0.
+    /// Returns the values of a combination. The index is 0-based.
     pub(super) fn point(&self, run: usize) -> Vec<f64> {
         self.each(run, |axis, k| axis.values[k])
     }
@@ -318,7 +318,8 @@ impl Grid {
         })
     }
 
-    /// Returns the item for the index of the value of each axis in a combination.
+    /// For each axis, calls `of` with the index of the value of the axis in a combination, and
+    /// returns the results.
     fn each<T>(&self, run: usize, of: impl Fn(&Axis, usize) -> T) -> Vec<T> {
         let mut rest = run;
         let mut point: Vec<T> = self

@@ -1,4 +1,4 @@
-//! Generated code for the runs of a sweep. The code is generated once, without a compiler; its
+//! Generated code for the runs of a sweep. The code is generated once, without a compiler. Its
 //! inputs are the numbers that the varied keys affect.
 
 use std::sync::Arc;
@@ -21,7 +21,7 @@ pub(super) struct SweepCode {
 }
 
 impl SweepCode {
-    /// Generates the code for runs of a scene with other numbers at these keys; `described` is the
+    /// Generates the code for runs of a scene with other numbers at these keys. `described` is the
     /// scene without changes.
     ///
     /// # Errors
@@ -36,7 +36,7 @@ impl SweepCode {
             return Err(format!("code is generated for at least {FEW} runs"));
         }
         let described = described.ok_or("the scene without changed values cannot be assembled")?;
-        // A setting that is not a number of the equations, such as a tolerance, needs no input.
+        // Settings that are not numbers of the equations, such as a tolerance, need no input.
         let is_of_run = |key: &&String| key.starts_with("simulate.");
         let mut keys: Vec<String> = keys.iter().filter(|key| !is_of_run(key)).cloned().collect();
         let tape = loop {

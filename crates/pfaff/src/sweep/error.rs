@@ -1,5 +1,5 @@
-//! Errors that prevent a sweep from starting or end it. Errors of single runs are reported in their
-//! rows.
+//! Errors that prevent the start of a sweep or end a sweep. Errors of single runs are reported in
+//! the rows of the runs.
 
 use model::codes::Code;
 use report::sweep::JournalError;
@@ -60,7 +60,7 @@ impl SweepError {
 }
 
 impl SweepError {
-    /// Whether the input is invalid; otherwise the error occurred during the computation.
+    /// Whether the input is invalid. Otherwise, the error occurred during the computation.
     #[must_use]
     pub fn is_input(&self) -> bool {
         match self {

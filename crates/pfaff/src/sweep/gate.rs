@@ -1,5 +1,5 @@
 //! Runs that may end their process are performed while the process performs no other run of any
-//! sweep, so that its end has a unique cause.
+//! sweep, so that the end of the process has a unique cause.
 
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{PoisonError, RwLock, RwLockReadGuard, RwLockWriteGuard, TryLockError};
@@ -9,7 +9,7 @@ use std::time::Duration;
 /// Runs that may execute at the same time share this lock.
 static GATE: RwLock<()> = RwLock::new(());
 
-/// Number of threads that wait to run alone; they take precedence.
+/// Number of threads that wait to run alone. These threads take precedence.
 static WAITING: AtomicUsize = AtomicUsize::new(0);
 
 /// Time between two attempts to lock.
@@ -35,8 +35,8 @@ pub(super) fn beside_others(
     }
 }
 
-/// Waits until no other run is in progress, and prevents others from beginning. Returns `None` if
-/// the wait was interrupted.
+/// Waits until no other run is in progress, and prevents other runs from beginning. Returns `None`
+/// if the wait was interrupted.
 pub(super) fn alone(interrupted: &dyn Fn() -> bool) -> Option<RwLockWriteGuard<'static, ()>> {
     let _waits = Waits::new();
     loop {

@@ -1,5 +1,5 @@
-//! One run with its output. The run is repeated without generated code if it stopped after it had
-//! left that code.
+//! One run with its output. If the run stopped after it had left generated code, the run is
+//! repeated without generated code.
 
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
@@ -31,7 +31,7 @@ pub(super) struct Job {
 }
 
 impl Job {
-    /// Creates a run, one of this number of runs, with its output.
+    /// Creates a run with its output. `runs` is the number of all runs.
     pub(super) fn new(
         run: u64,
         begun: PreparedRun,
@@ -49,9 +49,9 @@ impl Job {
         Ok(Self { run, begun, folder })
     }
 
-    /// Performs the run up to its end and stores its trajectory; returns `None` if `stop` ended the
-    /// run, which is then repeated later. `evaluator` evaluates the code of the run, if several
-    /// runs are performed at once.
+    /// Performs the run up to its end and stores the trajectory. Returns `None` if `stop` ended the
+    /// run; the run is then repeated later. If several runs are performed at once, `evaluator`
+    /// evaluates the code of the run.
     pub(super) fn go(
         mut self,
         evaluator: Option<&dyn SceneCode>,
@@ -59,8 +59,9 @@ impl Job {
     ) -> Result<Option<MadeRun>, SweepError> {
         let ended = self.attempt(evaluator, stop)?;
         if ended.as_ref().is_some_and(MadeRun::has_lost_its_way) {
-            // The interpreter passes some configurations if it starts before them, but not if it
-            // starts at the end of generated code.
+            // The interpreter passes some configurations only if it starts well before these
+            // configurations, and not if it starts at the state at which the run left generated
+            // code.
             self.begun.leave_code();
             return self.attempt(None, stop);
         }
@@ -102,7 +103,7 @@ impl Job {
         if let Some(error) = unwritten {
             return Err(error.into());
         }
-        // The run may have ended just before the request.
+        // The run may have ended shortly before the request.
         if stop() {
             return Ok(None);
         }
@@ -116,8 +117,8 @@ impl Job {
     }
 }
 
-/// Returns the directory of the files of a run; its number has as many digits as that of the last
-/// run.
+/// Returns the directory of the files of a run. The number in the name has as many digits as the
+/// number of the last run.
 fn folder(directory: &Path, run: u64, runs: u64) -> PathBuf {
     let width = runs.to_string().len();
     directory.join("runs").join(format!("{run:0width$}"))

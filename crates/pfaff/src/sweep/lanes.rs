@@ -1,11 +1,11 @@
 //! Several runs on one thread, with a combined evaluation of their code. Each run is a coroutine
 //! that waits whenever it needs a function of its code. When all runs wait, the function that most
-//! of them need is evaluated for a number of runs that fills whole SIMD batches. So each run has
-//! its own steps, projections and events, and its results are bitwise the same as alone.
+//! runs need is evaluated for a number of runs that fills whole SIMD batches. Each run has its own
+//! steps, projections and events. Its results are bitwise equal to the results of the run alone.
 //!
-//! Rejected alternatives: a separate loop for several runs, and threads instead of coroutines,
-//! because a switch of threads costs more than an evaluation. Code that is compiled at run time was
-//! also rejected, because it needs `unsafe`.
+//! We rejected three alternatives: a separate loop for several runs; threads in place of
+//! coroutines, because a switch of threads costs more than an evaluation; and code that is compiled
+//! at run time, because it needs `unsafe`.
 
 use std::cell::RefCell;
 use std::sync::Arc;
@@ -21,7 +21,7 @@ use super::SweepError;
 use super::job::Job;
 use super::run::MadeRun;
 
-/// Size of the stack of a run (bytes); memory is used only for the touched part.
+/// Size of the stack of a run (bytes). Only the used part of the stack needs memory.
 const STACK: usize = 2 << 20;
 
 /// Result of a run: `None` if it was interrupted.
@@ -35,7 +35,7 @@ struct Wait {
 
 type Lane = Coroutine<Option<Box<TapeCall>>, Wait, Outcome, DefaultStack>;
 
-/// Performs the runs and passes on each result as soon as it is available.
+/// Performs the runs and passes on each result as soon as the result is available.
 pub(super) fn together(
     jobs: Vec<Job>,
     interrupted: &Stop<'_>,
@@ -82,8 +82,8 @@ pub(super) fn together(
         let Some(&function) = needed.filter(|f| !calls[f.index()].is_empty()) else {
             return Ok(());
         };
-        // If other runs can continue, runs that would leave SIMD batches incomplete wait for
-        // others.
+        // If other runs can continue, runs that would leave a SIMD batch incomplete wait for more
+        // runs.
         let count = calls[function.index()].len();
         let count = if count < LANES {
             count
@@ -105,10 +105,10 @@ pub(super) fn together(
     }
 }
 
-/// The code of a run, which waits until a function is evaluated.
+/// The code of a run. The run waits until a function is evaluated.
 struct Waits<'y> {
     spec: Tape,
-    /// Storage for arguments and results; empty during an evaluation.
+    /// Storage for arguments and results. It is empty during an evaluation.
     call: RefCell<Option<Box<TapeCall>>>,
     yielder: &'y Yielder<Option<Box<TapeCall>>, Wait>,
 }

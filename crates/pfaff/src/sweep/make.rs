@@ -1,5 +1,5 @@
-//! Runs on one thread, one after another or together, each passed on as soon as it is finished. All
-//! callers that perform several runs at once use this module.
+//! Performs runs on one thread, one after another or together. Each result is passed on as soon as
+//! its run is finished. All callers that perform several runs at once use this module.
 
 use dynamics::Stop;
 use report::SweepRow;
@@ -12,9 +12,9 @@ use super::{Sweep, SweepError};
 pub(super) const TOGETHER: usize = 32;
 
 impl Sweep<'_> {
-    /// Performs these runs (from 1, ascending, at most [`TOGETHER`]) on this thread, and passes on
-    /// each row. The contents of a row do not depend on the other runs. Runs that are interrupted
-    /// have no row.
+    /// Performs these runs (1-based, ascending, at most [`TOGETHER`]) on this thread, and passes on
+    /// each row. The contents of a row do not depend on the other runs. Interrupted runs have no
+    /// row.
     pub(super) fn make(
         &self,
         runs: &[u64],

@@ -22,7 +22,7 @@ use crate::error::StudyError;
 use crate::peaks_of_run::{MagnitudePeak, MagnitudesOfRun};
 use crate::study::Study;
 
-/// A run that can begin: assembled, and analysed at its start.
+/// A run that can begin. It has been assembled, and its start has been analysed.
 pub(super) struct PreparedRun {
     pub(super) study: Study,
     pub(super) options: MotionOptions,
@@ -35,7 +35,7 @@ pub(super) struct PreparedRun {
     pub(super) code: Option<Tape>,
 }
 
-/// The scene without changes, whose decisions are used for all runs with the same constraints.
+/// The scene without changes. Its decisions are used for all runs with the same constraints.
 pub(super) struct UnvariedScene {
     study: Study,
     pub(super) analysis: Arc<Analysis>,
@@ -61,7 +61,7 @@ impl UnvariedScene {
         &self.study.prepared
     }
 
-    /// Whether a run has the same constraints and the same configuration, and so the same
+    /// Whether a run has the same constraints and the same configuration, and therefore the same
     /// decisions.
     pub(super) fn decides(&self, run: &PreparedMechanism) -> bool {
         let own = self.prepared();
@@ -70,7 +70,7 @@ impl UnvariedScene {
     }
 }
 
-/// Result of a run: the contents of its row, and the reason if it stopped.
+/// Result of a run: the contents of its row, and the reason why the run stopped, if it stopped.
 pub(super) struct MadeRun {
     pub(super) motion: SweepMotion,
     pub(super) error: Option<StudyError>,
@@ -91,9 +91,9 @@ impl PreparedRun {
         self.study.prepared = self.study.prepared.clone().without_code();
     }
 
-    /// Performs the run up to its end, or until a callback stops it: `each` is called with every
-    /// written row, and `stop` at each evaluation. `evaluator` evaluates the code of the run, if
-    /// several runs are performed at once.
+    /// Performs the run up to its end, or until a callback stops the run. `each` is called with
+    /// every written row, and `stop` at each evaluation. If several runs are performed at once,
+    /// `evaluator` evaluates the code of the run.
     pub(super) fn go(
         &self,
         evaluator: Option<&dyn SceneCode>,
@@ -101,21 +101,21 @@ impl PreparedRun {
         mut each: impl FnMut(&mut Sample<'_, '_>) -> Result<ControlFlow<()>, MotionFault>,
     ) -> MadeRun {
         let mut watch = Watch::new(self);
-        // Without redundant rows all reactions are unique.
+        // Without redundant rows, all reactions are unique.
         let is_redundant = self.analysis.decision.redundancy > 0 && !self.reactions.is_empty();
         let elastic = self.study.bounds.as_ref().filter(|_| is_redundant);
         let wanted = OutputRequest {
             rows: Rows::Every,
             accelerations: self.study.scene.output.accelerations,
             reactions: match elastic {
-                // The bounds of one reaction depend on the loads of all.
+                // The bounds of one reaction depend on the loads of all joints.
                 Some(_) => Reactions::All,
                 None => Reactions::Of(watch.names()),
             },
             groups: Vec::new(),
             choices: Vec::new(),
-            // The row of a sweep contains no instants. `OfRun` leaves out the loads that bounds
-            // depend on.
+            // The row of a sweep contains no instants. `OfRun` omits the loads on which bounds
+            // depend.
             verdicts: match elastic {
                 Some(_) => Verdicts::WithInstants,
                 None => Verdicts::OfRun,
@@ -157,7 +157,7 @@ impl PreparedRun {
     }
 }
 
-/// Whether an event belongs to the motion and not to its computation.
+/// Whether an event belongs to the motion, and not only to the computation of the motion.
 fn is_of_motion(event: &&Event) -> bool {
     !matches!(event.kind, EventKind::CodeLeft | EventKind::CodeUsed)
 }
@@ -214,7 +214,8 @@ impl<'s> Watch<'s> {
         Ok(())
     }
 
-    /// Returns the last state, body by body in the order of trajectories; NaN if there is no state.
+    /// Returns the last state, body by body in the order of trajectories. The numbers are NaN if
+    /// there is no state.
     fn state(&self) -> Vec<f64> {
         let mechanism = self.mechanism();
         let bodies = 0..mechanism.bodies().len();

@@ -6,8 +6,8 @@ use std::str::FromStr;
 use report::sweep::Runs;
 use serde::{Deserialize, Serialize};
 
-/// The k-th of n parts of a sweep, each of consecutive runs: `k/n`, counted from 1. Parts differ by
-/// at most one run.
+/// The k-th of n parts of a sweep (1-based), written as `k/n`. Each part consists of consecutive
+/// runs. The numbers of runs of two parts differ by at most one.
 ///
 /// ```
 /// use pfaff::sweep::Shard;
@@ -63,8 +63,8 @@ impl Shard {
         self.n
     }
 
-    /// Returns the runs of the part, of this total number; `None` if there are more parts than runs
-    /// and this part is empty.
+    /// Returns the runs of the part. `all` is the number of runs of the sweep. Returns `None` if
+    /// there are more parts than runs and this part is empty.
     #[must_use]
     pub fn runs(self, all: u64) -> Option<Runs> {
         // The result is at most `all`, because k ≤ n.
@@ -72,7 +72,7 @@ impl Shard {
         Runs::new(end(self.k - 1) + 1, end(self.k))
     }
 
-    /// Finds a number of parts such that all given ranges are parts. Returns `None` if a range
+    /// Finds a number of parts for which all given ranges are parts. Returns `None` if a range
     /// contains all runs, if there are no ranges, or if the ranges belong to different numbers of
     /// parts.
     #[must_use]
@@ -87,8 +87,8 @@ impl Shard {
         (least..=most).find(|n| parts.iter().all(|part| is_part(*n, part)))
     }
 
-    /// Returns the parts, of n, that consist of these runs; `None` if the runs begin or end inside
-    /// a part.
+    /// Returns those of n parts that consist of these runs. Returns `None` if the runs begin or end
+    /// inside a part.
     #[must_use]
     pub fn of(runs: Runs, all: u64, n: u64) -> Option<Vec<Self>> {
         let at = |run: u64| (u128::from(run) * u128::from(n)).div_ceil(u128::from(all)) as u64;

@@ -1,4 +1,5 @@
-//! Compares sweeps with closed forms, for any number of threads and shards and with interruptions.
+//! Compares sweeps with closed forms. The tests use different numbers of threads and shards, and
+//! interruptions.
 
 mod code;
 
@@ -14,7 +15,7 @@ use crate::{RunOptions, Study};
 
 use super::{Shard, Sweep, SweepError, SweepOutcome, SweepProgress, SweepSettings, Tables, merge};
 
-/// A point mass on a rod of length 1 m, which passes its lowest point at v = 10⁻⁴ m/s.
+/// A point mass on a rod of length 1 m. The mass passes its lowest point at v = 10⁻⁴ m/s.
 const PENDULUM: &str = r#"
 scene = { name = "pendulum", space = "plane", gravity = [0.0, -9.81] }
 body = [{ name = "bob", mass = 2.0, inertia = 0.0, velocity = [1e-4, 0.0] }]
@@ -112,8 +113,8 @@ fn a_pendulum_swings_as_its_length_says() {
     }
 }
 
-/// A beam has two hinges: the force along it is not determined, so no table contains a value for
-/// it.
+/// A beam has two hinges. The force along the beam is not determined, so the tables contain no
+/// value for this force.
 #[test]
 fn reactions_that_are_not_unique_have_no_number() {
     let beam = r#"
@@ -144,8 +145,9 @@ simulate = { t_end = 0.1 }
     assert_eq!(sweep.plan.reactions, ["right"]);
 }
 
-/// A beam on two hinges, with gravity along the beam and across it: each hinge carries half of the
-/// weight across, and between nothing and the whole weight along.
+/// A beam on two hinges, with gravity along the beam and across the beam. Each hinge carries half
+/// of the weight across the beam. Along the beam, each hinge carries a load between zero and the
+/// whole weight.
 #[test]
 fn bounds_of_reactions_are_columns() {
     let beam = r#"
@@ -190,7 +192,7 @@ simulate = { t_end = 0.1 }
     let value: f64 = rows[2][column].parse().expect("a number");
     assert!((value - 164.0_f64.sqrt()).abs() < 1e-12, "{value}");
 
-    // Bounds that cannot be computed are refused before any run.
+    // Bounds that cannot be computed are rejected before any run.
     for (request, said) in [
         ("{ within = 2, compliance = \"lefd=1\" }", "`lefd`"),
         ("true, reactions = false", "bounds need reactions"),
@@ -203,7 +205,7 @@ simulate = { t_end = 0.1 }
 }
 
 /// Three parallel cranks are upright at the start and rotate. One pivot consists of two points on
-/// lines, and the horizontal one is unique only at the start.
+/// lines. The horizontal reaction of this pivot is unique only at the start.
 const UPRIGHT: &str = r#"
 scene = { name = "upright", space = "plane", gravity = [0.0, -10.0] }
 body = [
@@ -246,7 +248,7 @@ fn verdicts_of_a_row_are_those_of_its_run() {
     let motion = of("");
     assert_eq!((motion.redundancy, motion.not_unique), (1, Some(7)));
     assert!((0..7).all(|k| motion.largest(k)[0][0].is_nan()));
-    // All joints are counted, whether or not their reactions have columns.
+    // All joints are counted, including joints whose reactions have no columns.
     let motion = of("output = { reactions = [\"guide x\"] }\n");
     assert_eq!((motion.not_unique, motion.peaks.len()), (Some(7), 1));
     // Without reactions there are no verdicts of the run.
@@ -291,7 +293,8 @@ fn threads_and_shards_leave_no_trace() {
     let folders = ["one", "two", "shards", "apart", "merged"].map(Folder::new);
     let [one, two, shards, apart, merged] = &folders;
     let document = run(&sweep, one, Shard::WHOLE, 1);
-    // Mass 0 also allows no motion: the two values are two of ten masses, and each occurs twice.
+    // With mass 0, no motion is possible either. These two masses are two of ten values, and each
+    // value occurs twice.
     assert_eq!(
         (document.runs, document.done, document.stopped),
         (20, 16, 0)
@@ -342,8 +345,8 @@ fn threads_and_shards_leave_no_trace() {
     assert_eq!(one.table(), shards.table());
 }
 
-/// The process that ends last finds all runs and writes the tables, and more shards than runs cause
-/// no error.
+/// The process that ends last finds all runs and writes the tables. More shards than runs cause no
+/// error.
 #[test]
 fn the_last_shard_writes_the_tables() {
     let registry = Registry::standard();
@@ -485,7 +488,8 @@ fn a_run_that_ends_its_process_twice_is_named() {
         deaths += 1;
         assert!(deaths <= 6, "{child:?}");
     }
-    // Each run ends the process twice alone, and once among others unless both did so at once.
+    // Each run ends the process twice alone. It also ends the process once together with other
+    // runs, unless both runs ended the process at the same time.
     assert!((5..=6).contains(&deaths), "{deaths}");
     let sweep = sweep(&registry, PENDULUM, &[MASSES]);
     let document = run(&sweep, &folder, Shard::WHOLE, 1);
@@ -519,8 +523,7 @@ fn a_run_that_ends_its_process_twice_is_named() {
     sweep
         .run_into(&folder.0, &again, || false, note)
         .expect("nothing is left");
-    // After a request the rows of the crashed runs are deleted: then these two runs, and no others,
-    // are repeated.
+    // On request, the rows of the crashed runs are deleted. Then only these two runs are repeated.
     assert_eq!(super::forget_crashed(&folder.0).expect("forgotten"), 2);
     assert_eq!(super::forget_crashed(&folder.0).expect("forgotten"), 0);
     let (mut finished, mut made) = (0, Vec::new());

@@ -20,8 +20,7 @@ use crate::configuration::requests;
 use crate::error::StudyError;
 use crate::run_options::RunOptions;
 
-/// A scene and the numbers that are varied in it. Several axes form a full grid, in which the last
-/// axis varies fastest.
+/// A scene and its varied numbers. Several axes form a full grid. The last axis varies fastest.
 ///
 /// ```
 /// use pfaff::model::Registry;
@@ -47,8 +46,8 @@ use crate::run_options::RunOptions;
 pub struct Sweep<'r> {
     template: Template,
     grid: Grid,
-    /// Value of one unit of each axis in SI, if the values of the axis have no unit; otherwise the
-    /// values are already in SI.
+    /// Value of one unit of each axis in SI, if the values of the axis have no unit. Values with a
+    /// unit are already in SI.
     scales: Vec<f64>,
     pub(super) plan: SweepPlan,
     /// Indices of the requested reactions.
@@ -60,13 +59,13 @@ pub struct Sweep<'r> {
     text: String,
     /// The scene without changes, prepared when the first run begins.
     pub(super) described: OnceLock<Option<UnvariedScene>>,
-    /// The generated code of the runs, or the reason why they are interpreted; created when the
-    /// first run begins.
+    /// The generated code of the runs, or the reason why the runs are interpreted. It is created
+    /// when the first run begins.
     pub(super) code: OnceLock<Result<SweepCode, String>>,
 }
 
 impl<'r> Sweep<'r> {
-    /// Reads a scene and finds the varied numbers; `name` is the file name in messages.
+    /// Reads a scene and finds the varied numbers. `name` is the file name in messages.
     ///
     /// # Errors
     /// - [`SweepError::Study`]: the scene is invalid without changes, or it does not state the end
@@ -83,7 +82,7 @@ impl<'r> Sweep<'r> {
         Self::of(&assembled, text, (registry, Tolerance::default()), axes)
     }
 
-    /// Like [`Self::read`], for a scene that has been read, with this accuracy of its data.
+    /// Works like [`Self::read`], for a scene that has been read, with this accuracy of the data.
     ///
     /// # Errors
     /// Returns the errors of [`Self::read`].
@@ -151,8 +150,9 @@ impl<'r> Sweep<'r> {
         })
     }
 
-    /// Describes as text the evaluation of the equations of the runs: code that is generated for
-    /// all of them without a compiler, or the interpreter, with the reason.
+    /// Describes, as text, how the equations of the runs are evaluated: by code that is generated
+    /// for all runs without a compiler, or by the interpreter. In the latter case, the text
+    /// contains the reason.
     ///
     /// ```
     /// use pfaff::model::Registry;
@@ -217,11 +217,11 @@ impl<'r> Sweep<'r> {
         self.plan.runs
     }
 
-    /// Returns the varied numbers of a run in SI, for any units in which they are written; a
-    /// parameter without a unit is a plain number.
+    /// Returns the varied numbers of a run in SI. The units in which the numbers are written have
+    /// no effect. A parameter without a unit is a plain number.
     ///
     /// # Panics
-    /// Panics if there is no such run; runs are counted from 1.
+    /// Panics if the run does not exist. Runs are counted from 1.
     #[must_use]
     pub fn point(&self, run: u64) -> Vec<f64> {
         let runs = self.runs();
@@ -237,8 +237,8 @@ impl<'r> Sweep<'r> {
             .collect()
     }
 
-    /// Returns the indices of the requested reactions in the mechanism of a run; some may be
-    /// missing if the sweep varies which joints are active.
+    /// Returns the indices of the requested reactions in the mechanism of a run. Some reactions may
+    /// be missing if the sweep varies which joints are active.
     fn places(&self, mechanism: &Mechanism) -> Vec<Option<usize>> {
         let groups = &mechanism.layout().groups;
         let place = |(&k, name): (&usize, &String)| match groups.get(k) {
@@ -255,7 +255,7 @@ impl<'r> Sweep<'r> {
     /// Performs a run without writing any file.
     ///
     /// # Panics
-    /// Panics if there is no such run; runs are counted from 1.
+    /// Panics if the run does not exist. Runs are counted from 1.
     #[must_use]
     pub fn row(&self, run: u64) -> SweepRow {
         match self.begin(run) {
@@ -375,8 +375,8 @@ pub(super) fn reason(error: &StudyError) -> String {
 }
 
 /// Returns the value of one unit of each axis in SI, for keys at which the scene reads numbers
-/// without units. The function reads the scene of the first or the last run; if neither can be
-/// read, no run of the sweep uses the result.
+/// without units. The function reads the scene of the first run or of the last run. If neither
+/// scene can be read, no run of the sweep uses the result.
 fn scales(template: &Template, grid: &Grid, registry: &Registry) -> Vec<f64> {
     let read = |run: usize| {
         let written = grid.written(run);
@@ -394,8 +394,8 @@ fn scales(template: &Template, grid: &Grid, registry: &Registry) -> Vec<f64> {
     told.unwrap_or_else(|| vec![1.0; grid.axes.len()])
 }
 
-/// Combines a text with the accuracy of its numbers if the caller states one: sweeps that differ in
-/// one of these are different sweeps.
+/// Combines a text with the accuracy of its numbers, if the caller states an accuracy. Sweeps with
+/// different texts or accuracies are different sweeps.
 fn known_text(text: &str, tolerance: Tolerance) -> String {
     if tolerance == Tolerance::default() {
         return text.to_owned();

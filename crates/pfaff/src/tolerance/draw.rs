@@ -1,10 +1,10 @@
-//! Random numbers of a sample. Each datum has a stream of its own, so that a sample depends on the
-//! seed and on its number, and not on numbers drawn before it.
+//! Random numbers of a sample. Each datum has a separate stream, so that a sample depends only on
+//! the seed and on the index of the sample, and not on numbers that were drawn earlier.
 //!
 //! Source: SplitMix64 (Steele, Lea, Flood: Fast splittable pseudorandom number generators, OOPSLA
-//! 2014), also as the hash that separates streams.
+//! 2014). The hash that separates the streams is also SplitMix64.
 
-/// The increment of SplitMix64: 2⁶⁴ over the golden ratio, odd.
+/// The increment of SplitMix64: the odd integer nearest to 2⁶⁴ divided by the golden ratio.
 const GOLDEN: u64 = 0x9e37_79b9_7f4a_7c15;
 
 /// Random numbers of one datum of one sample.
@@ -28,7 +28,7 @@ impl Stream {
         (self.next() >> 11) as f64 * (2.0 * f64::EPSILON / 2.0) - 1.0
     }
 
-    /// Returns a vector that is uniform in the unit ball of one, two or three dimensions; other
+    /// Returns a vector that is uniform in the unit ball of one, two or three dimensions. The other
     /// components are zero.
     pub(super) fn ball(&mut self, dimensions: usize) -> [f64; 3] {
         loop {
@@ -90,7 +90,7 @@ mod tests {
         }
         let product = |k| Stream::new(1, k, 0).uniform() * Stream::new(1, k, 1).uniform();
         let correlation = (0..N).map(product).sum::<f64>() / N as f64;
-        // The limit is five standard deviations: the product of two numbers has the variance 1/9.
+        // The limit is five standard deviations. The product of two numbers has the variance 1/9.
         assert!(
             correlation.abs() < 5.0 / 3.0 / (N as f64).sqrt(),
             "{correlation}"

@@ -1,5 +1,5 @@
-//! Errors that prevent the computation of all samples. Samples that cannot be assembled are counted
-//! and are not an error.
+//! Errors because of which no sample can be computed. Samples that cannot be assembled are counted;
+//! they are not an error.
 
 use model::codes::Code;
 use scene::KeyError;
@@ -28,7 +28,7 @@ pub enum ToleranceError {
     Vary {
         /// The number and its interval.
         variation: String,
-        /// Description of the error at one of its ends.
+        /// Description of the error at one end of the interval.
         reason: String,
     },
     /// The scene has no numbers that can be displaced.
@@ -64,7 +64,7 @@ impl ToleranceError {
         }
     }
 
-    /// Whether the input is invalid; otherwise the error occurred during the computation.
+    /// Whether the input is invalid. Otherwise, the error occurred during the computation.
     #[must_use]
     pub fn is_input(&self) -> bool {
         match self {

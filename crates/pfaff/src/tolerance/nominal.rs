@@ -20,8 +20,8 @@ pub(super) struct DisplacedDatum {
     pub(super) block: DataBlock,
     /// Largest displacement of the datum (in its unit).
     pub(super) tolerance: f64,
-    /// The stream of its random numbers: a drive uses the streams of its joint, because both have
-    /// the same points.
+    /// The stream of the random numbers of the datum. A drive uses the streams of its joint,
+    /// because both have the same points.
     pub(super) stream: u64,
 }
 
@@ -29,7 +29,7 @@ pub(super) struct DisplacedDatum {
 #[derive(Clone, Debug)]
 pub(super) enum Reading {
     Decided,
-    /// The rank is between two values: the lower one is used, and no reaction counts as unique.
+    /// The rank is between two values. The lower value is used, and no reaction counts as unique.
     Undecided(String),
 }
 
@@ -88,9 +88,9 @@ pub(super) struct SampleContacts {
 
 /// A request for bounds in each sample.
 pub(super) struct SampleBounds {
-    /// The described configuration, whose self-stresses are those of all samples.
+    /// The described configuration. Its self-stresses are used for all samples.
     pub(super) configuration: Option<Configuration<'static>>,
-    /// The scene, for the points about which moments give way.
+    /// The scene, which contains the centres of stiffness.
     pub(super) scene: Scene,
     pub(super) elasticity: Elasticity,
 }
@@ -147,8 +147,8 @@ impl Nominal {
                 }
             }
         }
-        // Reference points, directions and numbers have the values to which the joints set them at
-        // the start; their accuracy is the accuracy that the scene states.
+        // The joints set the values of reference points, directions and numbers at the start. The
+        // accuracy of these values is the accuracy that the scene states.
         let of_stated = stated.with_numbers(&mechanism.data().numbers());
         let mut at = of_stated.scratch();
         of_stated.pose(0.0, &prepared.q, &mut at);
@@ -186,8 +186,8 @@ impl Nominal {
     }
 }
 
-/// Prepares the study of a scene. If the rank within the tolerances is undecided, it returns the
-/// study for exact numbers, and the doubt.
+/// Prepares the study of a scene. If the rank within the tolerances is undecided, returns the study
+/// for exact numbers, and a text about the undecided rank.
 fn study_of(assembled: AssembledScene) -> Result<(Study, Option<Doubt>), ToleranceError> {
     let (scene, mechanism) = (assembled.scene.clone(), assembled.mechanism.clone());
     let doubt = match assembled.prepare(&RunOptions::default()) {
@@ -229,7 +229,7 @@ fn lower_rank(
     };
     let layout = mechanism.layout();
     let kept = rows(layout.rows(), all).map_err(|_| undecided())?;
-    // If there are nonholonomic rows, these may be the redundant ones.
+    // If there are nonholonomic rows, these may be the redundant rows.
     let position_kept = match layout.h {
         0 => kept.clone(),
         _ => holonomic.kept.clone(),
@@ -237,7 +237,7 @@ fn lower_rank(
     Ok((kept, position_kept))
 }
 
-/// Returns the data with a stated tolerance, each with the stream of its random numbers.
+/// Returns the data with a stated tolerance. Each datum has the stream of its random numbers.
 pub(super) fn displaced(mechanism: &Mechanism, blocks: Vec<DataBlock>) -> Vec<DisplacedDatum> {
     let layout = mechanism.layout();
     let own_stream = |block: &DataBlock| block.numbers.start as u64;
@@ -268,8 +268,8 @@ pub(super) fn displaced(mechanism: &Mechanism, blocks: Vec<DataBlock>) -> Vec<Di
 }
 
 impl Nominal {
-    /// Returns the smallest and the largest tolerance for a unit; `None` if no datum with this unit
-    /// is displaced.
+    /// Returns the smallest and the largest tolerance for a unit. Returns `None` if no datum with
+    /// this unit is displaced.
     pub(super) fn tolerances(&self, unit: DataUnit) -> Option<[f64; 2]> {
         let own = self.data.iter().filter(|d| d.block.unit == unit);
         own.map(|d| d.tolerance).fold(None, |range, x| {
@@ -278,7 +278,7 @@ impl Nominal {
         })
     }
 
-    /// Whether a quantity is unique as described.
+    /// Whether a quantity is unique in the described mechanism.
     pub(super) fn is_unique(&self, quantity: usize) -> bool {
         self.verdicts[quantity] == "unique"
     }

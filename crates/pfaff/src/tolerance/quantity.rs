@@ -10,7 +10,7 @@ use solvability::{Configuration, ElasticSolutions, LinearForm};
 pub(super) enum Kind {
     /// The named component of the definition.
     ByName,
-    /// A component in ground axes, as index into the components of the space.
+    /// A component in ground axes. The value is the index of the component in the space.
     Component(usize),
     /// The magnitude of the force.
     Force,
@@ -42,7 +42,7 @@ pub(super) fn worse(one: &'static str, other: &'static str) -> &'static str {
 }
 
 impl Quantity {
-    /// Returns all numbers of all reactions, joint by joint; the text describes the first number of
+    /// Returns all numbers of all reactions, joint by joint. Sentences describe the first number of
     /// each joint.
     pub(super) fn all(mechanism: &Mechanism) -> Vec<Self> {
         let layout = mechanism.layout();
@@ -67,7 +67,7 @@ impl Quantity {
         };
         let mut all = Vec::new();
         if let Some(name) = group.spec.component {
-            // The reaction of a drive of an angle is a torque only.
+            // The reaction of a drive of an angle is only a torque.
             let unit = if forces > 0 { "N" } else { "N·m" };
             all.push(quantity(Kind::ByName, name, unit));
         }
@@ -99,9 +99,10 @@ impl Quantity {
         }
     }
 
-    /// Returns the verdict on the quantity at a configuration: the worst verdict of the components
-    /// on which it depends. If `within` is above zero, a component counts as unique if, and only
-    /// if, the choice changes it by no more than this fraction of itself.
+    /// Returns the verdict on the quantity at a configuration. It is the worst verdict of the
+    /// components on which the quantity depends. If `within` is above zero, a component counts as
+    /// unique if, and only if, the choice changes the component by at most this fraction of its
+    /// value.
     pub(super) fn verdict(
         &self,
         mechanism: &Mechanism,
@@ -112,8 +113,8 @@ impl Quantity {
             let Ok(form) = at.reactions().component(self.id, name) else {
                 return "undecided";
             };
-            // The change is relative to the component: a small component of a shared reaction is
-            // also shared.
+            // The change is relative to the component, because a small component of a shared
+            // reaction is also shared.
             let share = at.solvability().combination(form.coefficients());
             match (at.judge(&form), share) {
                 (_, Ok(share)) if within > 0.0 && share.margin <= within => "unique",

@@ -1,11 +1,12 @@
-//! One sample: the mechanism with displaced data, assembled again, and its reactions.
+//! One sample: the mechanism with displaced data, which is assembled again, and its reactions.
 //!
-//! The same numbers are analysed in two ways. *On the independent rows* of the described mechanism
-//! the redundancy is the same as there. Its redundant rows have small violations, which clearance
-//! or elasticity takes up. The reactions that are unique there have their values here. *With exact
-//! numbers* all rows count at this configuration, as for rigid bodies without clearance. If
-//! redundant rows are now independent, the mechanism has fewer free motions, and the data alone
-//! decide the numbers that were not unique.
+//! The numbers of a sample are analysed in two ways. *On the independent rows* of the described
+//! mechanism, the sample has the redundancy of the described mechanism. The redundant rows have
+//! small violations, which are possible because of clearance or elasticity. Reactions that are
+//! unique in the described mechanism have values in the sample. *With exact numbers*, all rows
+//! count at this configuration, as for rigid bodies without clearance. If redundant rows are now
+//! independent, the mechanism has fewer free motions, and the data alone determine the numbers that
+//! were not unique.
 //!
 //! Assembly is not damped, because nearly dependent rows are the important ones. The rank of all
 //! rows is decided at the assembled pose with exact numbers, as for a plain matrix.
@@ -28,20 +29,21 @@ use super::nominal::{Base, DisplacedDatum, Nominal, SampleBounds, SampleContacts
 use super::quantity::Quantity;
 use super::vary::VariedText;
 
-/// A configuration is another assembly of the same parts if its distance from the described one
-/// exceeds this fraction of the size of the mechanism, or this angle (rad).
+/// Largest distance between the configuration of a sample and the described configuration: a
+/// fraction of the size of the mechanism, or an angle (rad). At a larger distance, the
+/// configuration counts as another assembly of the same parts.
 pub(super) const FAR: f64 = 0.3;
 
-/// Iterations towards a configuration; within a tolerance a few are enough, and more are needed if
-/// the rows are nearly dependent.
+/// Largest number of iterations towards a configuration. Within a tolerance, a few iterations are
+/// sufficient. More iterations are needed if the rows are nearly dependent.
 const ITERATIONS: usize = 40;
 
-/// A configuration satisfies its rows if their residuals are below this many rounding errors of
-/// their terms, or below the second number of them if the iteration no longer improves.
+/// A configuration satisfies its rows if the residuals are below this multiple of the rounding
+/// errors of the terms. If the iteration no longer improves, the next constant is the limit.
 const ROUNDINGS: f64 = 10.0;
 const STILL: f64 = 1e3;
 
-/// The reason for samples whose rows contradict each other, or nearly so.
+/// The reason for samples whose rows contradict each other or nearly contradict each other.
 const NO_POSE: &str = "no pose near the described one satisfies the rows";
 
 fn unassembled(e: linalg::SaddleError) -> SampleFailure {
@@ -65,19 +67,19 @@ pub struct Sample {
 /// A sample that was assembled.
 #[derive(Clone, Debug)]
 pub struct AssembledSample {
-    /// Rank of all rows with exact numbers; `None` if it is undecided.
+    /// Rank of all rows with exact numbers. `None` if the rank is undecided.
     pub rank: Option<usize>,
     /// The verdict on each joint and drive with exact numbers.
     pub verdicts: Vec<&'static str>,
-    /// The verdict on each number of a reaction with the described redundancy. Numbers that depend
-    /// on the load sharing among the redundant rows, however little, are not unique.
+    /// The verdict on each number of a reaction with the described redundancy. A number is not
+    /// unique if it depends, even weakly, on the distribution of the loads over the redundant rows.
     pub of_kept: Vec<&'static str>,
-    /// The values of reactions on the independent rows, NaN if they are not unique.
+    /// The values of reactions on the independent rows. A value is NaN if it is not unique.
     pub kept: Vec<f64>,
-    /// Bounds of the values that are not unique on the independent rows, NaN without bounds; empty
-    /// if no bounds were requested.
+    /// Bounds of the values that are not unique on the independent rows. Values without bounds have
+    /// NaN. The list is empty if no bounds were requested.
     pub bounds: Vec<[f64; 2]>,
-    /// The values with exact numbers, NaN if they are not unique or unknown.
+    /// The values with exact numbers. A value is NaN if it is not unique or unknown.
     pub exact: Vec<f64>,
     /// Violation of each redundant holonomic row (m or rad).
     pub misfits: Vec<f64>,
@@ -87,7 +89,8 @@ pub struct AssembledSample {
     pub markers: Vec<[f64; 3]>,
     /// Values of joint coordinates (measures).
     pub measures: Vec<f64>,
-    /// The one-sided joints that open with the described redundancy; empty if all can stay closed.
+    /// The one-sided joints that open with the described redundancy. The list is empty if all
+    /// one-sided joints can stay closed.
     pub opened: Vec<ConstraintId>,
     /// Ranges of the values over the loads that one-sided joints permit, with the described
     /// redundancy: infinite without a limit, NaN if the joints open or if the range is not clear;
@@ -96,7 +99,7 @@ pub struct AssembledSample {
 }
 
 impl Nominal {
-    /// Computes a sample; the result depends only on the seed and the number.
+    /// Computes a sample. The result depends only on the seed and the number of the sample.
     pub(super) fn sample(&self, vary: Option<&VariedText<'_>>, seed: u64, number: u64) -> Sample {
         let shares = vary
             .map(|vary| vary.shares(seed, number))
@@ -134,7 +137,7 @@ impl Nominal {
         mechanism.b(&mut s);
         let Instant { v, lambda } = self.instant(mechanism, base, &mut s)?;
         let misfits = self.missing.iter().map(|row| s.phi[*row]).collect();
-        // Violations of redundant rows are not errors of C, which is accurate to rounding here.
+        // Violations of redundant rows are not errors of C. Here C is accurate to rounding.
         s.phi.fill(0.0);
         let decision = solvability::decide(mechanism, &s, &q)
             .map_err(|e| SampleFailure::new("the rank cannot be decided", e))?;
@@ -172,7 +175,8 @@ impl Nominal {
         })
     }
 
-    /// Returns the configuration nearest to the described one on the independent rows.
+    /// Returns the configuration that satisfies the independent rows and is nearest to the
+    /// described configuration.
     fn pose_of(&self, mechanism: &Mechanism, base: &Base) -> Result<Vec<f64>, SampleFailure> {
         let q = self.closest(mechanism, &base.q)?;
         requirement(mechanism, &q)
@@ -218,8 +222,8 @@ impl Nominal {
                 phi => phi.abs() / mechanism.scales(&s).position(i),
             };
             let residual = rows.iter().map(misses).fold(0.0, f64::max);
-            // Rounding may leave slightly more than the first bound: then the iteration no longer
-            // improves.
+            // Because of rounding errors, the residual may stay slightly above the first bound.
+            // Then the iteration no longer improves.
             let is_still = residual >= best && residual <= STILL * f64::EPSILON;
             if residual <= ROUNDINGS * f64::EPSILON || is_still {
                 return Ok(q);
@@ -261,8 +265,8 @@ impl Nominal {
         Err(SampleFailure::new(NO_POSE, detail))
     }
 
-    /// Computes the velocities nearest to the described ones on the independent rows, in the mass
-    /// metric, and the multipliers at these velocities.
+    /// Computes the velocities that satisfy the independent rows and are nearest to the described
+    /// velocities in the mass metric. Also computes the multipliers at these velocities.
     fn instant(
         &self,
         mechanism: &Mechanism,
@@ -310,9 +314,9 @@ impl Nominal {
         Ok(Instant { v, lambda })
     }
 
-    /// Analyses the configuration with the described redundancy; `None` if it cannot be analysed.
-    /// Violations of redundant rows do not make these rows independent, and the loads that they
-    /// share are not determined.
+    /// Analyses the configuration with the described redundancy. Returns `None` if it cannot be
+    /// analysed. Redundant rows count as redundant although they have violations, and the loads
+    /// that they share are not determined.
     fn on_kept_rows<'m>(
         &self,
         mechanism: &'m Mechanism,
@@ -323,7 +327,8 @@ impl Nominal {
         Configuration::new(mechanism, self.t, q, &decision).ok()
     }
 
-    /// Returns the decision with the described redundancy; `None` without redundant rows.
+    /// Returns the decision with the described redundancy. Returns `None` if there are no redundant
+    /// rows.
     fn described_decision(
         &self,
         mechanism: &Mechanism,
@@ -341,8 +346,9 @@ impl Nominal {
         solvability::decide_of_rank(mechanism, s, q, of_rank, Some(&dropped)).ok()
     }
 
-    /// Returns the verdicts on the numbers with the described redundancy. In a misaligned mechanism
-    /// each component is analysed separately, also a component that is zero as described.
+    /// Returns the verdicts on the numbers with the described redundancy. In a misaligned
+    /// mechanism, each component is analysed separately, even if the component is zero in the
+    /// described mechanism.
     fn verdicts_of(
         &self,
         mechanism: &Mechanism,
@@ -446,8 +452,8 @@ impl Nominal {
         (opening, ranges)
     }
 
-    /// Returns the verdicts with exact numbers at this configuration, and the numbers that are
-    /// unique with them.
+    /// Returns the verdicts with exact numbers at this configuration, and the values that are
+    /// unique according to these verdicts.
     fn with_exact_numbers(
         &self,
         mechanism: &Mechanism,
@@ -484,9 +490,10 @@ impl Nominal {
         (verdicts, values)
     }
 
-    /// Returns the multipliers of all rows with exact numbers, zeros on redundant rows. Returns
-    /// `None` if the velocities violate a row that is now independent, or if redundant rows
-    /// contradict each other: then the mechanism cannot perform this motion without clearance.
+    /// Returns the multipliers of all rows with exact numbers. The multipliers of redundant rows
+    /// are zero. Returns `None` if the velocities violate a row that is now independent, or if
+    /// redundant rows contradict each other. In these cases, the mechanism cannot perform this
+    /// motion without clearance.
     fn exact_multipliers(
         &self,
         mechanism: &Mechanism,

@@ -254,7 +254,8 @@ impl Nominal {
             .collect()
     }
 
-    /// Returns the value of a number in a sample, NaN if the sample does not determine it.
+    /// Returns the value of a number in a sample. Returns NaN if the sample does not determine the
+    /// number.
     fn value(&self, k: usize, sample: &AssembledSample) -> f64 {
         if self.is_unique(k) {
             sample.kept[k]
@@ -272,14 +273,14 @@ impl Nominal {
         rounding: f64,
     ) -> QuantityRangeDocument {
         let unique = self.is_unique(k);
-        // A sum that cancels is zero, and its rounding error is removed.
+        // If a sum cancels, its value is only a rounding error and is replaced by zero.
         let clean = |x: f64| if x.abs() <= rounding { 0.0 } else { x };
         let value = |s: &AssembledSample| clean(self.value(k, s));
         let told = described.filter(|_| unique || !self.is_decided());
         let told = told.map(value).filter(|x| x.is_finite());
         let values: Vec<f64> = good.iter().map(|(_, s)| value(s)).collect();
         let determined = values.iter().filter(|x| x.is_finite()).count();
-        // A range of only some samples would depend on their selection.
+        // A range over only some samples would depend on the selection of the samples.
         let is_whole = determined == values.len();
         let range = is_whole.then(|| RangeDocument::of(values, told)).flatten();
         let bounds = bounds(good, k, clean);
@@ -298,7 +299,7 @@ impl Nominal {
             }
             None => Some(CANNOT_MOVE),
         };
-        // Exact data may decide a number that is not unique as described.
+        // With exact data, a number may be unique that is not unique in the described mechanism.
         let bounds = bounds.filter(|_| range.is_none() || !unique);
         QuantityRangeDocument {
             name: quantity.name,
@@ -417,7 +418,7 @@ impl Nominal {
         columns
     }
 
-    /// Returns a row of the table of samples; missing values are NaN.
+    /// Returns a row of the table of samples. Missing values are NaN.
     pub(super) fn row(&self, vary: &[Variation], sample: &Sample) -> Vec<String> {
         let layout = self.mechanism.layout();
         let mut row = vec![sample.number.to_string()];
@@ -471,8 +472,8 @@ impl Nominal {
     }
 }
 
-/// Returns the smallest and the largest bound of a number over the samples; `None` if a sample has
-/// no bounds.
+/// Returns the smallest and the largest bound of a number over the samples. Returns `None` if a
+/// sample has no bounds.
 fn bounds(
     good: &[(u64, &AssembledSample)],
     k: usize,
@@ -540,7 +541,7 @@ const SHARED_IN_SAMPLES: &str =
 const CANNOT_MOVE: &str =
     "without play, slip or elasticity the mechanism could not perform this motion";
 
-/// Data of the sentence about a reaction in addition to its range.
+/// Data for the sentence about a reaction, in addition to the range of the reaction.
 struct RangeContext<'a> {
     name: &'a str,
     verdict: &'a str,

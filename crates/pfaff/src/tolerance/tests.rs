@@ -36,8 +36,9 @@ fn range<'d>(d: &'d ToleranceDocument, name: &str, value: &str) -> &'d RangeDocu
     range.unwrap_or_else(|| panic!("`{name}` has no {value}: {values:?}"))
 }
 
-/// The scene has a beam of 20 N whose centre of mass is 1 m from the hinge, on a roller 2 m from
-/// it. The text `of_roller` is inserted into the table of the roller.
+/// The scene has a beam with a weight of 20 N on a hinge and a roller. The centre of mass is 1 m
+/// from the hinge, and the roller is 2 m from the hinge. The text `of_roller` is inserted into the
+/// table of the roller.
 fn beam(of_scene: &str, of_roller: &str) -> String {
     format!(
         r#"
@@ -58,8 +59,8 @@ fn of_second_order(tolerance: f64) -> f64 {
 }
 
 /// Only the distance L of the roller from the hinge varies: N = 20·1/L, and L is in 2 ± τ. For 1.9
-/// % of the points of a disk, x is more than 0.9 of the radius: among 1000 points there are some on
-/// each side.
+/// % of the points of a disk, x is more than 0.9 of the radius. Among 1000 points, there are such
+/// points on each side.
 #[test]
 fn a_beam_on_a_roller_that_is_somewhere_carries_what_its_lever_says() {
     let tolerance = 2e-3;
@@ -84,7 +85,8 @@ fn a_beam_on_a_roller_that_is_somewhere_carries_what_its_lever_says() {
     assert!((roller.mean - 10.0).abs() < 5.0 * per_metre * tolerance / 2.0 / 1000f64.sqrt());
     let deviation = roller.deviation / (per_metre * tolerance / 2.0);
     assert!((deviation - 1.0).abs() < 0.1, "{deviation}");
-    // The hinge carries the load that the roller does not carry; its reaction acts on the ground.
+    // The hinge carries the load that the roller does not carry. The reaction of the hinge acts on
+    // the ground.
     let hinge = range(d, "hinge", "Fy");
     assert!(
         (roller.greatest - hinge.greatest - 20.0).abs() < slack,
@@ -113,8 +115,8 @@ fn all_points_of_a_beam_together_stay_within_the_sum() {
     assert!(d.misfits.is_empty() && d.undecided == 0);
 }
 
-/// Three cranks of half a metre are inclined by 0.7 rad and carry 6 kg in total; the pin of the
-/// third one is displaced by `off`.
+/// Three cranks of half a metre are inclined by 0.7 rad and carry 6 kg in total. The pin of the
+/// third crank is displaced by `off`.
 fn three_cranks(off: f64, tolerance: f64) -> String {
     let (c, s) = (0.5 * 0.7_f64.cos(), 0.5 * 0.7_f64.sin());
     let (mut bodies, mut joints) = (String::new(), String::new());
@@ -141,8 +143,9 @@ fn three_cranks(off: f64, tolerance: f64) -> String {
 }
 
 /// The coupler can only translate, across the cranks, with the force G = 2.25 kg·m·g·cos 0.7/0.5 m
-/// in this direction. The third crank is not parallel to the others: the force N along it satisfies
-/// N·sin ε = G. The weight of the crank itself loads its pin transversely with some newtons.
+/// in this direction. The third crank is not parallel to the other cranks. The force N along the
+/// third crank satisfies N·sin ε = G. The weight of this crank loads its pin transversely with some
+/// newtons.
 fn of_third_crank(off: f64) -> f64 {
     let (c, s) = (0.5 * 0.7_f64.cos(), 0.5 * 0.7_f64.sin());
     let across = 2.25 * 9.81 * 0.7_f64.cos() / 0.5;
@@ -179,7 +182,7 @@ fn a_third_crank_beside_its_place_carries_kilonewtons_somewhere_in_a_wide_range(
         assert!(range.least < described && described < range.greatest);
         range
     };
-    // The same seed displaces the same points ten times as far: for small displacements the range
+    // The same seed displaces the same points ten times as far. For small displacements, the range
     // is ten times as wide. Sixteen displacements of 1e-7 m are 0.6 % of the misalignment off·sin
     // 0.7. The cranks rotate by the corresponding angle to close the gap, which changes G by its
     // tangent and ε by its cotangent.
@@ -193,7 +196,7 @@ fn a_third_crank_beside_its_place_carries_kilonewtons_somewhere_in_a_wide_range(
         (0.1 * share..2.0 * share * (1.0 + turned)).contains(&relative),
         "{relative}"
     );
-    // At some micrometres the range is arbitrarily wide.
+    // At some micrometres, the range is arbitrarily wide.
     let wide = sample(5e-6);
     assert!(wide.greatest > 1.5 * wide.least, "{wide:?}");
 }
@@ -233,9 +236,9 @@ fn exact_cranks_lock_in_every_sample_and_their_misfit_has_a_bound() {
     assert_eq!(locked.samples + d.undecided, 1000);
     assert!(locked.samples > 980, "{d:?}");
     // The self-stress 1 : −2 : 1 along the cranks has the violation of twelve points. There are two
-    // points on each of six pins, which count once on the outer cranks and twice on the middle one.
-    // The violation is relative to the redundant row, which has a share of at least one half of its
-    // pin.
+    // points on each of six pins. Points on the outer cranks count once, and points on the middle
+    // crank count twice. The violation is relative to the redundant row, which has a share of at
+    // least one half of its pin.
     let [misfit] = &d.misfits[..] else {
         panic!("{:?}", d.misfits)
     };
@@ -247,7 +250,7 @@ fn exact_cranks_lock_in_every_sample_and_their_misfit_has_a_bound() {
     assert!(misfit.mean < misfit.greatest && misfit.mean > 0.1 * tolerance);
     let third = reaction(d, "P3");
     assert_eq!((third.verdict, third.fragile), ("not_unique", false));
-    // A range covers all samples: one sample with an undecided rank leaves no range.
+    // A range covers all samples. If the rank of one sample is undecided, there is no range.
     assert!(d.undecided > 0);
     assert_eq!(third.values[0].reading, "none");
     assert!(third.values[0].range.is_none());
@@ -266,7 +269,8 @@ fn exact_cranks_lock_in_every_sample_and_their_misfit_has_a_bound() {
         range.described.is_none() && range.greatest > 1e5,
         "{range:?}"
     );
-    // No smaller bound is certain: the sine of the angle can be as large as the points allow.
+    // No smaller bound is certain, because the sine of the angle can be as large as the points
+    // allow.
     let sine = 16.0 * tolerance / 0.5;
     assert!(range.least > 0.5 * of_third_crank(4e-4) * 4e-4 * 0.7_f64.sin() / 0.5 / sine);
 }
@@ -396,8 +400,8 @@ body = [{ name = "stone", mass = 1.0, inertia = 1.0 }]
     }
 }
 
-/// A crank is driven: its drive and its joint have the same points, so only the points and the zero
-/// of the drive vary.
+/// A crank has a drive. The drive and the joint have the same points, so only these points and the
+/// zero of the drive vary.
 #[test]
 fn a_drive_has_the_points_of_its_joint() {
     let text = r#"
@@ -425,8 +429,8 @@ drive = [{ name = "motor", joint = "guide", type = "displacement", motion = { ty
     assert!(kept.count() >= 1);
 }
 
-/// The reaction is half of the weight of a beam whose mass is accurate to 1 %, and of a beam whose
-/// weight is a parameter.
+/// The reaction is half of the weight of a beam. In one scene the mass of the beam is accurate to 1
+/// %, and in another scene the weight is a parameter.
 #[test]
 fn varied_numbers_move_reactions_by_their_interval() {
     let registry = Registry::standard();

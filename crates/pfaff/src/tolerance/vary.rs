@@ -13,14 +13,14 @@ use super::failed::SampleFailure;
 use super::nominal::{Base, DisplacedDatum, Nominal, displaced};
 use crate::assembled::AssembledScene;
 
-/// Streams of random numbers from this number on belong to varied numbers.
+/// Index of the first stream of random numbers for varied numbers.
 const FIRST: u64 = 1 << 32;
 
 /// The reason for samples whose varied numbers give no valid scene.
 const UNREADABLE: &str = "the scene with varied numbers cannot be assembled";
 
 /// A number of a scene that is uniformly distributed in an interval around its value, such as
-/// `KEY=±VALUE` or `KEY=±P%`. The sign may be written as `+-`; a value may have a unit.
+/// `KEY=±VALUE` or `KEY=±P%`. The sign may be written as `+-`. A value may have a unit.
 ///
 /// ```
 /// use pfaff::tolerance::Variation;
@@ -82,7 +82,7 @@ impl FromStr for Variation {
     fn from_str(text: &str) -> Result<Self, Self::Err> {
         let form =
             || format!("`{text}` is not KEY=±VALUE or KEY=±P%, as mass=±0.1, L=±0.5mm or k=±10%");
-        // Names may contain the sign `=`, numbers do not.
+        // Names may contain the sign `=`, but numbers do not.
         let (key, value) = text.rsplit_once('=').ok_or_else(form)?;
         let value = ["±", "+-", "+/-"]
             .into_iter()
@@ -121,7 +121,7 @@ pub struct VariedText<'r> {
 }
 
 impl<'r> VariedText<'r> {
-    /// Finds the numbers in a text; `name` is the file name in messages, `tolerance` takes
+    /// Finds the numbers in a text. `name` is the file name in messages. `tolerance` takes
     /// precedence over the tolerance of the scene.
     ///
     /// # Errors

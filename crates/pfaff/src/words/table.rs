@@ -4,8 +4,8 @@ use model::words::{Prefix, short};
 use report::SceneUnits;
 use scene::{Scene, Units, WithUnit};
 
-/// Numbers below this fraction of the largest number of their column and unit are rounding errors
-/// and are printed as zero.
+/// A number counts as a rounding error if it is below this fraction of the largest number of its
+/// column and unit. Such a number is printed as zero.
 const VISIBLE: f64 = 1e-12;
 
 /// Width of a column with lists (characters).
@@ -16,7 +16,7 @@ const LIST: usize = 34;
 pub enum Cell {
     /// A text.
     Text(String),
-    /// Words; a long list continues below.
+    /// Words. A long list has several lines.
     List(Vec<String>),
     /// A number in an SI unit; `None` if there is no number.
     Quantity(Option<f64>, &'static str),
@@ -60,7 +60,8 @@ pub enum UnitSystem {
 }
 
 impl UnitSystem {
-    /// Returns the unit for numbers up to this size in an SI unit, and its value in the SI unit.
+    /// Returns the unit for numbers up to this size in an SI unit, and the value of this unit in
+    /// the SI unit.
     #[must_use]
     pub fn unit(&self, largest: f64, si: &str) -> (String, f64) {
         let Self::Scene(units) = self else {
@@ -73,7 +74,7 @@ impl UnitSystem {
     }
 }
 
-/// Returns the texts of a table column by column; the first text of each column is its header. All
+/// Returns the texts of a table, column by column. The first text of each column is the header. All
 /// quantities of a table in the same SI unit have the same prefix. If all quantities of a column
 /// have the same unit, the header contains it.
 pub(crate) fn cells_of_table(lines: &[Vec<Cell>], units: UnitSystem) -> Vec<Vec<String>> {

@@ -9,13 +9,13 @@ use super::observation::Observation;
 use super::plan::{ComparisonPlan, Curve};
 use crate::study::Study;
 
-/// Smallest number of rows of a run with a time limit; the run can be abandoned between two rows.
+/// Smallest number of rows of a run with a time limit. The run can be abandoned between two rows.
 const ROWS: f64 = 1000.0;
 
 /// The times of a run at which rows are evaluated.
 #[derive(Clone, Debug)]
 pub(super) struct Times {
-    /// Time between rows (s); all requested times are multiples of it.
+    /// Time between rows (s). All requested times are multiples of this time.
     step: f64,
     /// The requested times (s).
     pub(super) wanted: Vec<f64>,
@@ -27,7 +27,7 @@ impl Times {
         Self { step, wanted }
     }
 
-    /// Creates `count` evenly spaced times, and the end.
+    /// Creates `count` evenly spaced times and the end time.
     pub(super) fn evenly(count: u32, t_end: f64) -> Self {
         let step = t_end / f64::from(count);
         let wanted = (1..=count).map(|k| step * f64::from(k)).collect();
@@ -53,7 +53,7 @@ impl Times {
 #[derive(Debug)]
 pub(super) enum RunEnding {
     Reached,
-    /// The run took too long; the value is the last time reached (s).
+    /// The run took too long. The value is the last time that was reached (s).
     GivenUp(f64),
     /// The comparison was interrupted.
     Interrupted,
@@ -116,8 +116,8 @@ pub(super) fn look(
     }
 }
 
-/// Runs without output and measures the time: the summary of the fastest run, and the number of
-/// runs. Returns `None` if a run did not reach its end, or if the measurement was interrupted.
+/// Measures the time of runs without output. Returns the summary of the fastest run, and the number
+/// of runs. Returns `None` if a run did not reach its end, or if the measurement was interrupted.
 pub(super) fn clock(
     study: &Study,
     options: &MotionOptions,

@@ -4,7 +4,7 @@
 use dynamics::{MotionFault, Sample};
 use model::{ColumnKind, Mechanism, Reaction, SpaceKind, System};
 
-/// Kinds of quantities: values of the same kind are compared with each other.
+/// Kinds of quantities. Values of the same kind are compared with each other.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kind {
     /// Coordinates of the mechanism.
@@ -72,8 +72,8 @@ impl Observation {
     }
 }
 
-/// Returns the index of a component of a reaction: each joint or drive has force, torque, and the
-/// named component, if it has one.
+/// Returns the index of a component of a reaction. Each joint or drive has the components of the
+/// force and the torque, and the named component, if the definition has a named component.
 pub(super) fn reaction_place(mechanism: &Mechanism, group: usize, component: usize) -> usize {
     (mechanism.space().n_v() + 1) * group + component
 }
@@ -95,7 +95,7 @@ pub(super) fn units(mechanism: &Mechanism, size: f64) -> [Vec<f64>; 4] {
     let mut of_reaction = vec![1.0; space.n_v() + 1];
     of_reaction[space.torques()].fill(size);
     let reactions = of_reaction.repeat(groups);
-    // Units of poses: a length for each of the translations, and directions.
+    // Units of poses: a length for each translation, and 1 for directions.
     let of_pose = |body: &[f64]| match space {
         SpaceKind::Space3 => [&body[..3], &[1.0; 9]].concat(),
         _ => body.to_vec(),
@@ -108,8 +108,8 @@ pub(super) fn units(mechanism: &Mechanism, size: f64) -> [Vec<f64>; 4] {
 mod tests {
     use super::*;
 
-    /// After a body there are ten unwrapped angles, which are more than the coordinates of a body:
-    /// they do not belong to a pose.
+    /// After the body there are ten unwrapped angles, which is more than the number of coordinates
+    /// of a body. These angles do not belong to a pose.
     #[test]
     fn turns_are_no_poses() {
         let pose = [1.0, 2.0, 3.0, 1.0, 0.0, 0.0, 0.0];

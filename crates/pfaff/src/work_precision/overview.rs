@@ -2,12 +2,12 @@
 
 use report::{Place, WorkPrecisionRow, WorkPrecisionScene};
 
-/// Methods within this factor of the fastest have the same rank: repeated runs differ by this
-/// factor.
+/// Methods within this factor of the fastest method have the same rank, because repeated runs
+/// differ by this factor.
 const EQUAL: f64 = 1.1;
 
-/// A finished run with an error above this limit at a tolerance of at most [`TIGHT`] is wrong, and
-/// not only inaccurate.
+/// Largest error of an inaccurate run at a tolerance of at most [`TIGHT`]. A finished run with a
+/// larger error is wrong.
 const WRONG: f64 = 1e-2;
 
 /// See the limit [`WRONG`].
@@ -46,8 +46,8 @@ fn name(row: &WorkPrecisionRow) -> String {
     )
 }
 
-/// Returns the ranks of methods with the usual stabilisation, the fastest first, for each scene and
-/// error.
+/// For each scene and error, returns the methods with the usual stabilisation in the order of their
+/// speed. The fastest method comes first.
 fn methods(
     scenes: &[WorkPrecisionScene],
 ) -> impl Iterator<Item = (&WorkPrecisionScene, f64, Vec<&Place>)> {

@@ -3,7 +3,7 @@
 use dynamics::{FORMULATION, Method, Stabilisation};
 use report::CurveName;
 
-/// A way to simulate a mechanism; over all tolerances it gives a curve of error against time.
+/// A way to simulate a mechanism. Over all tolerances, it gives a curve of error against time.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Curve {
     /// Integrator.
@@ -24,7 +24,7 @@ impl Curve {
     }
 }
 
-/// Methods that are compared: all except the automatic choice.
+/// Returns the methods that are compared. These are all methods except the automatic choice.
 fn methods() -> impl Iterator<Item = Method> {
     Method::ALL.iter().copied().filter(|m| *m != Method::Auto)
 }
@@ -53,20 +53,21 @@ pub(super) const ACCURATE: [Method; 4] = [
 pub struct ComparisonPlan {
     /// The curves.
     pub curves: Vec<Curve>,
-    /// Tolerances, used both as relative and absolute ones, the loosest first.
+    /// Tolerances. Each value is both the relative and the absolute tolerance. The loosest
+    /// tolerance comes first.
     pub tolerances: Vec<f64>,
     /// Smallest number of timed runs.
     pub repetitions: u32,
     /// Smallest total time of these runs (s).
     pub seconds: f64,
-    /// A run that takes longer (s) is abandoned, and so are runs of its curve with tighter
-    /// tolerances.
+    /// Largest time of a run (s). If a run takes longer, this run and the runs of the same curve
+    /// with tighter tolerances are abandoned.
     pub budget: f64,
 }
 
 impl ComparisonPlan {
-    /// The plan has every method with projection, and one explicit method with every stabilisation;
-    /// its tolerances are 1e-3, 1e-4, … 1e-13.
+    /// The plan has every method with projection, and one explicit method with every stabilisation.
+    /// The tolerances are 1e-3, 1e-4, … 1e-13.
     #[must_use]
     pub fn standard() -> Self {
         let curves = everything()
@@ -116,7 +117,8 @@ impl ComparisonPlan {
     }
 }
 
-/// Returns all curves: methods first, then the stabilisations compared with one method.
+/// Returns all curves. The methods come first, then the stabilisations that are compared with one
+/// method.
 fn everything() -> Vec<Curve> {
     let mut curves: Vec<Curve> = methods().map(ComparisonPlan::usual).collect();
     for method in methods() {

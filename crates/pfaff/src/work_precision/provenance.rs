@@ -17,8 +17,8 @@ pub fn machine() -> String {
     )
 }
 
-/// Returns the name of the processor, if the system provides it without a linked library: in a
-/// file, in a variable, or by a program.
+/// Returns the name of the processor, if the system provides the name in a file, in a variable or
+/// by a program. No library is linked for this purpose.
 fn processor() -> Option<String> {
     let name = match OS {
         "windows" => env::var("PROCESSOR_IDENTIFIER").ok()?,
@@ -54,7 +54,7 @@ pub fn date() -> String {
 }
 
 /// Converts a number of days after 1970-01-01 to year, month and day, in the Gregorian calendar.
-/// Years begin in March here, so that the leap day is their last day; an era has 400 years.
+/// Here years begin in March, so that the leap day is the last day of a year. An era has 400 years.
 fn civil(days: u64) -> [u64; 3] {
     let days = days + 719_468;
     let (era, day) = (days / 146_097, days % 146_097);
@@ -77,7 +77,7 @@ mod tests {
     #[test]
     fn days_have_their_dates() {
         // The dates come from the calendar: the first day, the leap days of 1972 and 2000, and the
-        // first of March after each.
+        // first of March after each leap day.
         assert_eq!(civil(0), [1970, 1, 1]);
         assert_eq!(civil(789), [1972, 2, 29]);
         assert_eq!(civil(790), [1972, 3, 1]);

@@ -10,17 +10,18 @@ const LEVELS: [f64; 10] = [
     1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10, 1e-11, 1e-12,
 ];
 
-/// A run reaches an error if no run with a tighter tolerance exceeds the error by more than this
-/// factor: near singular configurations a loose run may be accurate by chance.
+/// A run reaches an error only if no run with a tighter tolerance exceeds the error by more than
+/// this factor. The reason is that a loose run may be accurate by chance near singular
+/// configurations.
 const LUCK: f64 = 10.0;
 
-/// Errors are reported down to this multiple of the error of the reference.
+/// The smallest error in the ranking is this multiple of the error of the reference.
 const RESOLVED: f64 = 3.0;
 
-/// Methods within this factor count as equal: repeated runs differ by this factor.
+/// Methods within this factor count as equal, because repeated runs differ by this factor.
 const EQUAL: f64 = 1.1;
 
-/// Orders curves by time at each error, the fastest first.
+/// Orders curves by time at each error. The fastest curve comes first.
 pub(super) fn ranking(rows: &[WorkPrecisionRow], limit: f64) -> Vec<RankingLine> {
     let mut curves: Vec<&CurveName> = Vec::new();
     for row in rows {
@@ -54,9 +55,9 @@ pub(super) fn ranking(rows: &[WorkPrecisionRow], limit: f64) -> Vec<RankingLine>
         .collect()
 }
 
-/// Returns time (s) and evaluations for an error, from the runs of a curve, the loosest tolerance
-/// first. The values are interpolated linearly in logarithms between the last run above the error
-/// and the first one that reaches it.
+/// Returns the time (s) and the number of evaluations for an error, from the runs of a curve. The
+/// run with the loosest tolerance comes first. The logarithms of the values are interpolated
+/// linearly between the last run above the error and the first run that reaches the error.
 fn cost(runs: &[&WorkPrecisionRow], level: f64) -> Option<(f64, f64)> {
     let error = |row: &WorkPrecisionRow| row.motion_error().unwrap_or(f64::INFINITY);
     let finished: Vec<(&WorkPrecisionRow, f64)> = runs.iter().map(|r| (*r, error(r))).collect();
@@ -154,7 +155,7 @@ fn span_of(low: f64, high: f64) -> String {
     }
 }
 
-/// Compares other stabilisations with the usual one of the same method.
+/// Compares other stabilisations with the usual stabilisation of the same method.
 fn treatments(lines: &[RankingLine], rows: &[WorkPrecisionRow]) -> Option<String> {
     let usual = &rows.first()?.curve;
     let mut others: Vec<&CurveName> = Vec::new();

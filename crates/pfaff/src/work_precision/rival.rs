@@ -15,12 +15,13 @@ pub trait Rival {
     /// Returns the name of the method in tables.
     fn name(&self) -> CurveName;
 
-    /// Performs one run from the start through all instants (s, ascending), with equal relative and
-    /// absolute tolerance. The run stops after its limit of computing time.
+    /// Performs one run from the start to the last instant, with a row at each instant (s,
+    /// ascending) and with equal relative and absolute tolerances. The run stops after its limit of
+    /// computing time.
     ///
     /// # Errors
-    /// Returns the reason, as text, why the run did not reach the last instant: abandoned or
-    /// stopped.
+    /// Returns an error, with the reason as text, if the run was abandoned or stopped before the
+    /// last instant.
     fn run(
         &self,
         start: &PreparedMechanism,

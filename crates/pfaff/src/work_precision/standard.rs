@@ -1,22 +1,22 @@
-//! The reference values of runs: values by index and instant, the accuracy of each kind, and their
-//! source.
+//! The reference values of runs: values by index and instant, the accuracy of each kind, and the
+//! source of the values.
 
 use model::Mechanism;
 use solvability::{ReactionStretches, Stretches};
 
 use super::observation::{Observation, reaction_place, units};
 
-/// Rows and instants of a reference have the same time if they differ by less than this fraction of
-/// it.
+/// A row and an instant of a reference have the same time if their times differ by less than this
+/// fraction of the time.
 const SAME_TIME: f64 = 1e-9;
 
 /// Errors of a run.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Errors {
-    /// Error of each kind in the order of [`Kind`](super::Kind): the largest error over components
-    /// and instants, with lengths and torques divided by the size of the mechanism. It is relative
-    /// to the largest value of the kind, or to 1 for positions with smaller values and if all
-    /// values are zero. The value is NaN without a reference.
+    /// Error of each kind in the order of [`Kind`](super::Kind). It is the largest error over
+    /// components and instants, with lengths and torques divided by the size of the mechanism. The
+    /// error is relative to the largest value of the kind. It is relative to 1 for positions with
+    /// smaller values, and if all values are zero. Without a reference, the error is NaN.
     pub scaled: [f64; 4],
     /// The largest difference of a coordinate or velocity, in SI units.
     pub state: f64,
@@ -36,7 +36,8 @@ impl Errors {
     }
 }
 
-/// Index of a motion that is known without a run ([`Kind::place`](super::Kind::place)).
+/// The values of a motion that is known without a run. [`Kind::place`](super::Kind::place) returns
+/// the indices of the values.
 #[derive(Clone, Debug)]
 pub struct Reference {
     /// Source of the values.
@@ -50,8 +51,8 @@ pub struct Reference {
 /// Reference values of one mechanism.
 #[derive(Clone, Debug)]
 pub(super) struct Standard {
-    /// Bound on the error of the values of each kind, scaled as [`Errors::scaled`]; NaN without a
-    /// reference.
+    /// Bound on the error of the values of each kind, scaled as [`Errors::scaled`]. Without a
+    /// reference, the bound is NaN.
     pub(super) limits: [f64; 4],
     instants: Vec<ReferenceInstant>,
     units: [Vec<f64>; 4],
@@ -79,8 +80,8 @@ impl Standard {
         Self::new(reference.instants.clone(), reference.limits, units)
     }
 
-    /// Returns the mean of two runs at their common times, with their difference as the bound on
-    /// its error. Only the reactions with the indices `unique` are used.
+    /// Returns the mean of two runs at their common times. The bound on the error of the mean is
+    /// the difference of the runs. Only the reactions with the indices `unique` are used.
     pub(super) fn mean(
         [a, b]: [&[Observation]; 2],
         unique: &[usize],
@@ -98,7 +99,7 @@ impl Standard {
         let instants = a.iter().zip(b).map(mean).collect();
         let mut standard = Self::new(instants, [0.0; 4], units(mechanism, size));
         if let Some(errors) = standard.errors(a) {
-            // Each run differs from the mean by half of their difference.
+            // Each run differs from the mean by half of the difference of the two runs.
             standard.limits = errors.scaled.map(|e| 2.0 * e);
         }
         standard
@@ -148,7 +149,7 @@ impl Standard {
         self
     }
 
-    /// Returns the errors of a run; `None` if it has no row at one of the instants.
+    /// Returns the errors of a run. Returns `None` if the run has no row at one of the instants.
     pub(super) fn errors(&self, run: &[Observation]) -> Option<Errors> {
         let mut errors = Errors {
             scaled: [0.0; 4],
@@ -177,7 +178,7 @@ impl Standard {
     }
 }
 
-/// Returns the larger value; a value that is not finite counts as the largest.
+/// Returns the larger value. A value that is not finite counts as the largest.
 fn worse(a: f64, b: f64) -> f64 {
     if b.is_nan() { f64::INFINITY } else { a.max(b) }
 }
@@ -208,7 +209,7 @@ mod tests {
     use super::*;
     use crate::Study;
 
-    /// A number is compared if it is unique on the whole run, even if it is not unique at its
+    /// A number is compared if it is unique on the whole run, even if it is not unique at the
     /// start.
     #[test]
     fn only_what_is_unique_on_the_run_is_compared() {

@@ -149,8 +149,9 @@ pub struct DifferenceDocument {
 }
 
 impl AlongDocument {
-    /// Builds the document of a motion that was analysed up to a time with this number of samples
-    /// at this distance; `stopped` and `continued_to` are left empty.
+    /// Builds the document of a motion that was analysed up to a time. The other arguments are the
+    /// number of samples and the largest distance between samples. `stopped` and `continued_to`
+    /// stay empty.
     #[must_use]
     pub fn new(
         along: &MotionAnalysis,

@@ -1,5 +1,5 @@
-//! Reactions for several choices: unique numbers, and other numbers together with the choice on
-//! which they depend.
+//! Reactions for several choices. Each number is unique, or it is given together with the choice on
+//! which it depends.
 
 use serde::Serialize;
 use solvability::{Distribution, Value};
@@ -84,7 +84,7 @@ impl DistributionDocument {
 }
 
 impl ValuesDocument {
-    /// Converts the numbers of a sum, with its name.
+    /// Converts the numbers of a sum with this name.
     #[must_use]
     pub fn of_group(name: &str, values: &[(&'static str, Value)]) -> Self {
         Self {

@@ -38,7 +38,8 @@ pub struct ComponentDocument {
 }
 
 impl ComponentDocument {
-    /// Adds the sensitivities of unique components, given with the names of their reactions.
+    /// Adds the sensitivities of unique components. The sensitivities are given with the names of
+    /// the reactions.
     pub(crate) fn add_sensitivities<'d>(
         all: impl Iterator<Item = (&'d String, &'d mut Self)>,
         found: Vec<Option<Sensitivity>>,

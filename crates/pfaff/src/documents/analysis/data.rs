@@ -1,5 +1,5 @@
-//! Tolerances of the numbers of a scene, and how much the numbers would have to change for another
-//! rank.
+//! Tolerances of the numbers of a scene, and the smallest change of the numbers that leads to
+//! another rank.
 
 use model::Tolerance;
 use model::words::{estimate, rounded};
@@ -42,14 +42,14 @@ pub struct DataDocument {
     is_within: bool,
 }
 
-/// Data that differ by less than this fraction of the size of a part count as rounded: data of
-/// machines have about four digits, and no real part is shorter.
+/// Data that differ by less than this fraction of the size of a part count as rounded. Data of
+/// machines have about four digits, and dimensions of real parts are larger than this fraction.
 const ROUNDED: f64 = 1e-3;
 
 impl DataDocument {
-    /// Returns a warning of a motion that may be locked only by the rounding of the data;
-    /// `mobility` is the mobility for the given data. Returns `None` if a stated tolerance has
-    /// already freed the motion.
+    /// Returns a warning about a motion that is locked, possibly only because the data are rounded.
+    /// `mobility` is the mobility for the given data. Returns `None` if the motion is free within a
+    /// stated tolerance.
     #[must_use]
     pub fn warning(&self, mobility: usize) -> Option<String> {
         let from = self.free_from?;
@@ -68,8 +68,8 @@ impl DataDocument {
         ))
     }
 
-    /// Returns the tolerance for which the motion is free that only the rounding of the data may
-    /// lock; `None` if a tolerance is stated or no motion is locked in this way.
+    /// If a motion may be locked only because the data are rounded, returns the tolerance for which
+    /// this motion is free. Returns `None` if a tolerance is stated, or if there is no such motion.
     #[must_use]
     pub fn freeing_tolerance(&self) -> Option<Tolerance> {
         let from = self.free_from?;
@@ -161,8 +161,8 @@ impl DataDocument {
     }
 }
 
-/// Returns a tolerance, with two digits, that is clearly above the smallest tolerance at which a
-/// row is redundant; closer to that value the rank is undecided.
+/// Returns a tolerance with two digits. It is clearly above the smallest tolerance at which a row
+/// is redundant, because the rank is undecided close to the smallest tolerance.
 fn clearly_above(from: f64) -> f64 {
     let enough = BEYOND_DOUBT * from;
     let digit = 10.0_f64.powf(enough.log10().floor() - 1.0);
@@ -173,7 +173,7 @@ fn clearly_above(from: f64) -> f64 {
 mod tests {
     use super::*;
 
-    /// A certificate that contains only these two lengths.
+    /// Creates a certificate that contains only these two lengths.
     fn certificate(from: Option<f64>, here: Option<f64>) -> Certificate {
         Certificate {
             rank_at_least: 1,
@@ -223,7 +223,8 @@ mod tests {
             "{said}"
         );
         assert!(said.contains("`tolerance = 0.00016`"), "{said}");
-        // The text does not recommend a tolerance that has already freed the row.
+        // The text does not recommend a tolerance if the row is already redundant within the stated
+        // tolerance.
         let freed = Certificate {
             grounds: Grounds::WithinTolerance,
             ..near.clone()

@@ -1,4 +1,4 @@
-//! Rows that may be deleted: admissible sets of rows, and the smallest ones that make a reaction
+//! Rows that may be deleted: admissible sets of rows, and the smallest sets that make a reaction
 //! unique.
 
 use serde::Serialize;
@@ -53,7 +53,7 @@ pub struct WayDocument {
 }
 
 impl EliminationsDocument {
-    /// Stores the number of sets, and the first sets if requested (rows from 0).
+    /// Stores the number of sets, and the first sets if they are requested (rows 0-based).
     #[must_use]
     pub fn new(
         count: Result<u128, EliminationError>,

@@ -131,7 +131,7 @@ impl EvidenceDocument {
     }
 }
 
-/// Returns the result of the part whose rows come closest to a dependence, relative to the size of
+/// Returns the result of the part whose rows are closest to a dependence, relative to the size of
 /// the part.
 fn nearly_redundant(analysis: &Analysis) -> Option<NearlyRedundantDocument> {
     let nearly = analysis.nearly_redundant.as_ref()?;

@@ -1,4 +1,5 @@
-//! Notes of definitions for readers of their reactions, once for all joints of a type.
+//! Notes of definitions about the meaning of reactions. Each note appears once for all joints of a
+//! type.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -6,7 +7,7 @@ use model::Layout;
 use model::reaction::ConstraintGroup;
 use serde::Serialize;
 
-/// Number of joints named in the text; the document lists all.
+/// Number of joints that the text names. The document lists all joints.
 const NAMED: usize = 12;
 
 /// A note for readers of some reactions.
@@ -21,9 +22,9 @@ pub struct NoteDocument {
 }
 
 impl NoteDocument {
-    /// Returns the notes of all definitions that have one, in the order of their first joints. A
-    /// joint is left out if no other joint or force acts on its bodies, because then its reaction
-    /// cannot be misread.
+    /// Returns the notes of all definitions that have a note, in the order of their first joints. A
+    /// joint is omitted if no other joint or force acts on its bodies, because its reaction then
+    /// has only one possible meaning.
     #[must_use]
     pub fn all(layout: &Layout) -> Vec<Self> {
         let has_note = |g: &&ConstraintGroup| g.spec.note.is_some();

@@ -172,8 +172,8 @@ impl ReactionDocument {
         }
     }
 
-    /// Returns the ill-determined names: the reaction, if all of it is ill-determined, or else its
-    /// components.
+    /// Returns the names of ill-determined items: the reaction, if it is ill-determined as a whole,
+    /// and otherwise its ill-determined components.
     #[must_use]
     pub fn fragile_names(&self) -> Vec<String> {
         if !self.data.fragile {
@@ -211,7 +211,7 @@ impl ReactionDocument {
         format!("{verdict}{within}{fragile}")
     }
 
-    /// Adds the verdicts that hold at nearly all configurations.
+    /// Adds the verdicts that are valid at nearly all configurations.
     pub(super) fn add_generic(&mut self, generic: &GenericVerdict) {
         self.generic_verdict = Some(generic.whole.word());
         for component in &mut self.components {
@@ -219,8 +219,8 @@ impl ReactionDocument {
         }
     }
 
-    /// Returns the verdict here and the generic verdict, by name, if they differ. The names are the
-    /// reaction, or else its components.
+    /// Returns the verdict at this configuration and the generic verdict, by name, if the two
+    /// differ. The name is the name of the reaction, or the names of its components.
     #[must_use]
     pub fn differing(&self) -> Vec<(String, [&'static str; 2])> {
         let own = self.components.iter().filter_map(|c| {
@@ -241,8 +241,8 @@ impl ReactionDocument {
         }
     }
 
-    /// Returns the components that are not zero of the load of the reaction in a self-stress, by
-    /// name, on its first body.
+    /// Returns the nonzero components of the load that the reaction has in a self-stress, by name.
+    /// The load acts on the first body.
     pub(crate) fn loads_in(&self, dependency: usize) -> impl Iterator<Item = (String, f64)> + '_ {
         let loads = self.free_directions.iter();
         let loads = loads.filter(move |load| load.dependency == dependency);
@@ -252,7 +252,7 @@ impl ReactionDocument {
         })
     }
 
-    /// Adds the sensitivities of its components and directions.
+    /// Adds the sensitivities of the components and directions of the reaction.
     pub(super) fn add_sensitivities(
         &mut self,
         all: &Sensitivities,
@@ -361,7 +361,7 @@ impl From<&ReactionVerdict> for ReactionDocument {
     }
 }
 
-/// Returns a direction of a reaction in its written form: in space with all six components.
+/// Returns a direction of a reaction in its written form. In space, all six components are written.
 fn written(r: &ReactionVerdict, direction: &[f64]) -> Vec<f64> {
     if r.space.n_rotations() == 1 {
         return direction.to_vec();
@@ -392,7 +392,7 @@ impl GroupDocument {
         }
     }
 
-    /// Adds the sensitivities of its unique numbers to the data.
+    /// Adds the sensitivities of the unique numbers of the group to the data.
     pub fn add_sensitivities(&mut self, found: &GroupSensitivities, layout: &Layout) {
         for ValueDocument { name, value, .. } in &mut self.values {
             let own = name.and_then(|name| found.number(name));

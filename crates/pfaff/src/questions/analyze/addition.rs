@@ -40,7 +40,7 @@ pub(super) trait Addition: Sync {
         document: &mut AnalysisDocument,
     ) -> Result<(), StudyError>;
 
-    /// Adds the requested results over the motion.
+    /// Adds the requested results along the motion.
     fn add_along(
         &self,
         _asked: &Analyze,
@@ -50,7 +50,7 @@ pub(super) trait Addition: Sync {
         Ok(())
     }
 
-    /// Returns a sentence with results that the text contains without a request.
+    /// Returns a sentence with results that the text contains even without a request.
     fn sentence(
         &self,
         _of: &ConfigurationAnalysis<'_>,

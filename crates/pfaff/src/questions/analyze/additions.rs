@@ -1,4 +1,4 @@
-//! The list of the optional parts of an analysis, each in a folder of its own.
+//! The list of the optional parts of an analysis. Each part has its own folder.
 
 use super::addition::Addition;
 use super::{about, bounds, contacts, frames, matrices};

@@ -1,4 +1,4 @@
-//! Text on the verdicts along the motion.
+//! Text about the verdicts along the motion.
 
 use crate::documents::{AlongDocument, AlongReactionDocument, SpecialDocument};
 use model::words::rounded;
@@ -7,8 +7,8 @@ use super::additions::ADDITIONS;
 use super::phrases::spoken;
 use crate::words::{Block, count};
 
-/// If analysed states are farther apart than this, they may not show a change: a fraction of the
-/// size of the mechanism, or an angle (rad).
+/// Distance between analysed states above which a change may remain undetected. It is a fraction of
+/// the size of the mechanism, or an angle (rad).
 const COARSE: f64 = 0.2;
 
 /// Number of instants that are listed.

@@ -198,11 +198,11 @@ impl Addition for BoundsOfReactions {
     }
 }
 
-/// Number of lines of the table of ranges that are reached.
+/// Number of lines in the table of reached ranges.
 const REACHED: usize = 24;
 
-/// Lists the ranges that are reached if not all sets were examined, the widest first; `None` if
-/// there are none.
+/// If not all sets were examined, lists the ranges that are reached. The widest range comes first.
+/// Returns `None` if there are no such ranges.
 fn reached(d: &AnalysisDocument) -> Option<[Block; 3]> {
     let owners = d.reactions.iter().map(|r| (&r.name, &r.components));
     let owners = owners.chain(d.groups.iter().map(|g| (&g.name, &g.components)));
@@ -250,8 +250,9 @@ const SINGULAR: &str = "this configuration is singular; analyse another time of 
 /// Number of reactions in the line of [`in_one_line`].
 const LISTED: usize = 3;
 
-/// Describes the bounds of reactions in parts that leave one load component undetermined; of each
-/// reaction only the component with the widest range, the largest reactions first.
+/// Describes the bounds of reactions in parts that leave one load component undetermined. The text
+/// contains only the component with the widest range of each reaction. The largest reactions come
+/// first.
 fn in_one_line(of: &ConfigurationAnalysis<'_>, d: &AnalysisDocument) -> Option<String> {
     let layout = of.mechanism.layout();
     let is_open = |id: &ConstraintId| d.reactions[id.0].wrench.verdict == "not_unique";
@@ -292,7 +293,7 @@ fn name(of: &ConfigurationAnalysis<'_>, id: ConstraintId) -> String {
     of.mechanism.layout().groups[id.0].name.clone()
 }
 
-/// Reads the options; `None` if no bounds are requested.
+/// Reads the options. Returns `None` if no bounds are requested.
 fn elasticity(
     asked: &Analyze,
     of: &ConfigurationAnalysis<'_>,
@@ -355,7 +356,7 @@ fn of_reactions(
             Ok([force, moment]) => {
                 reaction.magnitude_at_most = Some(MagnitudeDocument { force, moment });
             }
-            // Without all sets there is a range, but no bound.
+            // If not all sets were examined, there is a range, but no bound.
             Err(BoundsError::Many) if reaction.components.iter().any(is_reached) => {}
             Err(e) if reason.is_none() => reason = Some(e.to_string()),
             Err(_) => {}

@@ -1,4 +1,4 @@
-//! The loads that contacts permit, of scenes with one-sided joints or grip.
+//! The loads that contacts permit, for scenes with one-sided joints or grip.
 
 use std::iter;
 

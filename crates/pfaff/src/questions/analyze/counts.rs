@@ -1,5 +1,5 @@
-//! Text on the verdicts if there are too many joints and drives for a table: counts by type, and
-//! the first names.
+//! Text about the verdicts for mechanisms with too many joints and drives for a table: counts by
+//! type, and the first names.
 
 use std::collections::BTreeMap;
 

@@ -1,11 +1,12 @@
-//! Sentences on the tolerances of the data and their consequences.
+//! Sentences about the tolerances of the data and the consequences of these tolerances.
 
 use crate::documents::AnalysisDocument;
 use model::words::estimate;
 
 use crate::words::Block;
 
-/// Returns no text if no tolerance is stated and no lower rank is near.
+/// Returns sentences about tolerances. The list is empty if no tolerance is stated and no lower
+/// rank is near.
 pub(super) fn of(d: &AnalysisDocument) -> Vec<Block> {
     let data = &d.data;
     let sentences = [

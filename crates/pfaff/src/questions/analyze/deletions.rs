@@ -1,22 +1,23 @@
-//! Text on the rows that may be deleted.
+//! Text about the rows that may be deleted.
 
 use crate::documents::AnalysisDocument;
 use crate::documents::MakeUniqueDocument;
 
 use crate::words::{Block, count, grouped};
 
-/// Number of sets that are listed for a reaction without a request by an option.
+/// Number of sets that are listed for a reaction if no option requests them.
 const WAYS: usize = 1;
 
-/// Number of reactions for which such hints are listed.
+/// Number of reactions with hints.
 pub(super) const HINTS: usize = 8;
 
-/// Returns the hints, or the requested results if there are any, and the number of admissible sets.
+/// Returns the requested results, or the hints if no results were requested. Also returns the
+/// number of admissible sets.
 pub(super) fn of(d: &AnalysisDocument, hints: &[MakeUniqueDocument]) -> Vec<Block> {
     let mut out = Vec::new();
     let item = |text: String| Block::after("- ", text);
     if d.answers.make_unique.is_empty() && hints.iter().any(|hint| hint.reason.is_none()) {
-        // Reactions with the same way are listed together.
+        // Reactions with the same set are listed together.
         let hinted = hints.iter().take(HINTS);
         let lines = grouped(hinted.map(|hint| (ways(hint, WAYS), hint.reaction.as_str())));
         let lead = "Design changes for unique reactions";

@@ -86,7 +86,7 @@ pub(super) fn of(
 /// Results that only the text contains.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Hints {
-    /// For the reactions that are not unique, the deletions that would make them unique.
+    /// The deletions that would make reactions unique, for reactions that are not unique.
     pub(super) ways: Vec<MakeUniqueDocument>,
     /// Sentences of the optional parts.
     pub(super) sentences: Vec<String>,
@@ -119,10 +119,11 @@ fn ways(
         ..Limits::default()
     };
     let reactions = configuration.analysis.reactions.iter();
-    // A joint is not deleted if another type suffices.
+    // There is no hint to delete a joint if a change of the type of the joint is sufficient.
     let open = reactions
         .filter(|r| r.wrench.verdict == Verdict::NotUnique && !document.has_remedy(&r.name));
-    // One more than the listed number shows whether there are more.
+    // One additional reaction is computed, to determine whether there are more reactions than the
+    // text lists.
     open.take(HINTS + 1)
         .map(
             |r| match configuration.make_unique(r.id, &DeletableRows::Sensible, limits) {

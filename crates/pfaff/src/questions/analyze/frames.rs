@@ -49,7 +49,8 @@ impl Addition for OtherFrames {
         Ok(())
     }
 
-    /// The text lists only reactions that are not unique; the others are unique in every frame.
+    /// The text lists only reactions that are not unique. All other reactions are unique in every
+    /// frame.
     fn words(&self, d: &AnalysisDocument) -> Vec<Block> {
         let open = d.reactions.iter().filter(|r| r.wrench.verdict != "unique");
         let lines = open.flat_map(|r| {

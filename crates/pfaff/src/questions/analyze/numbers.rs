@@ -6,8 +6,8 @@ use crate::documents::{AnalysisDocument, DistributionDocument, ValueDocument, Va
 
 use crate::words::{Block, Cell, load_unit};
 
-/// Components that do not depend on a choice are listed once; components that depend on it have one
-/// column for each choice.
+/// Components that do not depend on the choice are listed once. Components that depend on the
+/// choice have one column for each choice.
 pub(super) fn of(d: &AnalysisDocument) -> Vec<Block> {
     let choices = &d.answers.choices;
     if choices.is_empty() {

@@ -13,12 +13,13 @@ pub(super) fn spoken(word: &str) -> String {
     word.replace('_', " ")
 }
 
-/// Returns the addition to a verdict that depends on the last digits of the data.
+/// Returns the text that follows a verdict if the reaction depends on the last digits of the data.
 pub(super) fn hanging(data: &SensitivityDocument) -> &'static str {
     if data.fragile { ", FRAGILE" } else { "" }
 }
 
-/// Returns the addition to a verdict that is valid only within the tolerance, with its margin.
+/// Returns the text that follows a verdict if the verdict is valid only within the tolerance. The
+/// text contains the margin.
 fn within(v: &VerdictDocument) -> String {
     if v.within_tolerance {
         format!(" within the tolerance ({})", rough(v.margin))
@@ -40,7 +41,7 @@ pub(super) fn each(components: &[ComponentDocument]) -> String {
         (format!("{spoken}{within}{fragile}"), c.name)
     });
     let mut verdicts = grouped(verdicts);
-    // Unique components are what remains.
+    // Unique components come after components that are not unique.
     verdicts.sort_by_key(|(verdict, _)| (verdict == "zero", verdict.starts_with("unique")));
     let words = verdicts.iter();
     let words = words.map(|(verdict, names)| format!("{} {verdict}", names.join(", ")));

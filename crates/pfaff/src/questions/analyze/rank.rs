@@ -1,4 +1,4 @@
-//! Sentences on the rank and its evidence.
+//! Sentences about the rank and its evidence.
 
 use crate::documents::AnalysisDocument;
 use crate::documents::{PartsDocument, ReactionDocument};

@@ -5,7 +5,7 @@ use crate::question::{INTERRUPTED, NOTHING_WRITTEN};
 use crate::refusal::Refusal;
 use crate::start::Start;
 
-/// Returns the reason why there is no analysis; no output is written before the analysis is
+/// Returns the reason why there is no analysis. No output is written before the analysis is
 /// complete.
 pub(super) fn refused(of: &Start<'_>, error: StudyError) -> Refusal {
     match error {

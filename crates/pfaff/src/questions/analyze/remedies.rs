@@ -1,5 +1,5 @@
-//! Joints of other types that make reactions unique without a change of motion. Each proposal is
-//! written to the text of the scene, read and analysed.
+//! Joints of other types that make reactions unique without a change of the motion. Each proposal
+//! is written to the text of the scene. The resulting scene is then read and analysed.
 
 mod answer;
 mod coupled_search;
@@ -32,9 +32,9 @@ const ROWS: usize = 150;
 /// Largest number of remedies in the text.
 const LISTED: usize = 5;
 
-/// Adds the remedies to the document, if the mechanism is small and the analysis is that of its
-/// start. If only the rounding of the data locks a motion, the remedies are those of the mechanism
-/// that can move.
+/// Adds the remedies to the document, if the mechanism is small and the analysis is an analysis of
+/// the start. If a motion is locked only because the data are rounded, the remedies belong to the
+/// mechanism that can move.
 pub(super) fn add(
     asked: &Analyze,
     start: &Start<'_>,
@@ -67,7 +67,7 @@ pub(super) fn add(
     Ok(())
 }
 
-/// Returns the remedies of a run from its start, if its mechanism is small.
+/// Returns the remedies at the start of a run, if the mechanism is small.
 pub(crate) fn of_run(start: &Start<'_>, study: &Study) -> Result<Vec<RemedyDocument>, StudyError> {
     let mechanism = &study.prepared.mechanism;
     if study.prepared.decision.redundancy == 0 || mechanism.layout().rows() > ROWS {
@@ -79,7 +79,7 @@ pub(crate) fn of_run(start: &Start<'_>, study: &Study) -> Result<Vec<RemedyDocum
     Ok(document.answers.remedies)
 }
 
-/// Reads the scene with other types of joints; `None` if it is invalid.
+/// Reads the scene with other types of joints. Returns `None` if the scene is invalid.
 fn read(start: &Start<'_>, joints: &[&OtherType]) -> Option<AssembledScene> {
     let joints: Vec<&RetypedJoint> = joints.iter().map(|joint| &joint.retyped).collect();
     let text = retyped(&start.text, &joints)?;
@@ -94,7 +94,7 @@ struct Search<'s, 'r, 'm> {
 }
 
 impl Search<'_, '_, '_> {
-    /// Returns one remedy for each set of coupled joints, if there is one. `motion` describes the
+    /// Returns one remedy for each set of coupled joints that has a remedy. `motion` describes the
     /// motion of the analysed mechanism.
     fn remedies(&self, motion: &str) -> Result<Vec<RemedyDocument>, StudyError> {
         let analysis = &self.of.analysis;
@@ -116,8 +116,8 @@ impl Search<'_, '_, '_> {
             if tried.is_empty() {
                 break;
             }
-            // One reading of the text serves one type of each joint, unless the reader rejected
-            // another type of the joint.
+            // Each reading of the text tests one other type of each joint. A joint is tested alone
+            // if the reader has rejected one of its types.
             let is_together = |other: &&OtherType| !alone.contains(&other.id);
             let (together, others): (Vec<_>, Vec<_>) = tried.into_iter().partition(is_together);
             let sets = iter::once(&together[..]).chain(others.chunks(1));
@@ -145,7 +145,7 @@ impl Search<'_, '_, '_> {
         Ok(remedies.collect())
     }
 
-    /// Returns the other types of each joint of a set, the cheapest first.
+    /// Returns the other types of each joint of a set. The cheapest type comes first.
     fn types(&self, set: &CoupledJoints) -> Vec<Vec<OtherType>> {
         let (mechanism, analysis) = (self.of.mechanism, &self.of.analysis);
         let mut s = mechanism.scratch();
@@ -161,9 +161,9 @@ impl Search<'_, '_, '_> {
         types.collect()
     }
 
-    /// Returns the scene that has these types. If it is invalid, for example because a drive needs
-    /// a joint coordinate, the result contains scenes with fewer of the types, and the joints with
-    /// invalid types are added to a list.
+    /// Returns the scene with these types. This scene may be invalid, for example because a drive
+    /// needs a joint coordinate. In this case, the result contains scenes with fewer changes, and
+    /// the joints with invalid types are added to a list.
     fn compare<'a, 't>(
         &self,
         tried: &'a [&'t OtherType],

@@ -1,4 +1,4 @@
-//! The document of an analysis as text and tables, with the most important facts for a designer
+//! The document of an analysis as text and tables. The most important facts for a designer come
 //! first.
 
 use model::words::{digits, marked, quantity, rough};
@@ -86,7 +86,7 @@ pub(super) fn of(d: &AnalysisDocument, hints: &Hints) -> Vec<Block> {
 fn size(d: &AnalysisDocument) -> Block {
     let (c, ranks) = (&d.configuration, &d.ranks);
     let velocities = match c.velocities {
-        // In the plane both numbers are three for each body.
+        // In the plane, both numbers are three times the number of bodies.
         n if n == c.coordinates => String::new(),
         n => format!(", {n} velocities"),
     };
@@ -115,8 +115,8 @@ fn size(d: &AnalysisDocument) -> Block {
     ))
 }
 
-/// Lists the reaction components whose verdict at this configuration differs from their verdict at
-/// most other configurations, with both verdicts.
+/// Lists the reaction components whose verdict at this configuration differs from the verdict at
+/// most other configurations. Both verdicts are listed.
 fn elsewhere(d: &AnalysisDocument) -> impl Iterator<Item = Block> {
     let differing = d.reactions.iter().flat_map(|r| r.differing());
     let verdicts = grouped(differing.map(|(name, verdicts)| (verdicts, name)));
@@ -207,8 +207,8 @@ fn margin(v: &VerdictDocument) -> String {
     }
 }
 
-/// Lists the components of a unique reaction; its verdict and its margin already state that it is
-/// unique only within a tolerance.
+/// Lists the components of a unique reaction. If the reaction is unique only within a tolerance,
+/// the verdict and the margin of the reaction already state this.
 fn of_unique(r: &ReactionDocument) -> String {
     let mut components = r.components.clone();
     for component in &mut components {
@@ -225,7 +225,7 @@ fn margins() -> Block {
 }
 
 /// Lists unique directions that are not parallel to an axis, because the components do not show
-/// them.
+/// these directions.
 fn oblique(r: &ReactionDocument) -> String {
     let is_oblique = |d: &&Vec<f64>| d.iter().filter(|x| **x != 0.0).count() > 1;
     let names = r.direction_components();
@@ -267,7 +267,7 @@ fn groups(d: &AnalysisDocument) -> Vec<Block> {
     out
 }
 
-/// Formats the number of a value; `none` if the value has no number.
+/// Formats the number of a value. The text is `none` if the value has no number.
 fn number(value: &ValueDocument, unit: &str) -> String {
     let number = value.value.in_solution();
     number.map_or("none".to_owned(), |x| {
@@ -275,8 +275,8 @@ fn number(value: &ValueDocument, unit: &str) -> String {
     })
 }
 
-/// Lists the components of a group: a unique component with its number if it is known, and every
-/// other component with its verdict.
+/// Lists the components of a group. A unique component has its number, if the number is known.
+/// Every other component has its verdict.
 fn numbers_of(g: &GroupDocument) -> String {
     let value = |name: &str| {
         let given = |v: &&ValueDocument| {
@@ -335,7 +335,7 @@ fn why(d: &AnalysisDocument) -> Vec<Block> {
             .any(|m| joints.iter().all(|joint| m.reactions.contains(joint)))
     };
     let listed = dependencies.iter().filter(|x| !is_in_large(&x.joints));
-    // One dependency that contains all mixing rows replaces the set.
+    // If one dependency contains all rows of a set, the dependency is listed in place of the set.
     let of_dependencies: BTreeSet<&Vec<String>> = listed.clone().map(|x| &x.joints).collect();
     let is_said = |m: &&MixingDocument| of_dependencies.contains(&m.reactions);
     let sets = mixing.iter().filter(|m| m.redundancy > 1 || !is_said(m));

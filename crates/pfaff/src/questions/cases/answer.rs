@@ -232,7 +232,7 @@ impl CasesAnswer {
         }
     }
 
-    /// Writes the table of all peaks, one line for each case and load.
+    /// Writes the table of all peaks, with one line for each case and load.
     pub(super) fn write_table<W: Write>(&self, out: W) -> Result<W, TableError> {
         let header = COLUMNS.map(str::to_owned);
         let mut table = Table::new(TABLE, out, &header)?;

@@ -1,11 +1,11 @@
-//! Text on load cases.
+//! Text about load cases.
 
 use model::words::{listed, marked};
 
 use super::{CaseDocument, CasePeaks, CaseSet, CasesAnswer, PeakOfCase};
 use crate::words::{Block, Cell, count};
 
-/// Largest number of cases with columns of their own.
+/// Largest number of cases with separate columns.
 const COLUMNS: usize = 5;
 
 pub(super) fn of(answer: &CasesAnswer) -> Vec<Block> {

@@ -56,7 +56,7 @@ pub struct CheckAnswer {
 }
 
 impl CheckAnswer {
-    /// Builds the answer for an assembled scene; the argument is the correction of its coordinates.
+    /// Builds the answer for an assembled scene. `correction` is the correction of the coordinates.
     pub(super) fn new((scene, mechanism): (&Scene, &Mechanism), correction: &[f64]) -> Self {
         let layout = mechanism.layout();
         Self {
@@ -80,7 +80,7 @@ impl CheckAnswer {
         }
     }
 
-    /// Adds a warning about the start, with its positions if the scene has a text.
+    /// Adds a warning about the start. If the scene has a text, the warning has positions.
     pub(super) fn warned(self, place: Option<Diagnostic>, text: &impl ToString) -> Self {
         let Self {
             mut warnings,

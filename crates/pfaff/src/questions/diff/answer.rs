@@ -35,8 +35,9 @@ pub struct DiffAnswer {
 }
 
 impl DiffAnswer {
-    /// Builds the answer from two starts, whose scenes have these names in messages, and from the
-    /// differences of the motions or the reason why these are not compared.
+    /// Builds the answer from two starts and from the differences of the motions. If the motions
+    /// are not compared, the last argument is the reason. `names` are the names of the scenes in
+    /// messages.
     pub(super) fn new(
         names: [&str; 2],
         documents: &[AnalysisDocument; 2],
@@ -77,7 +78,7 @@ impl DiffAnswer {
     }
 }
 
-/// Returns names of files without directories; the directories are included only if the names would
+/// Returns names of files without directories. The directories are included only if the names would
 /// be equal.
 fn in_short(names: [&str; 2]) -> [String; 2] {
     let short = names.map(|name| match Path::new(name).file_name() {
@@ -182,7 +183,7 @@ impl From<&ReactionDocument> for DiffReaction {
     }
 }
 
-/// Describes the verdict on a reaction with its components that are not unique or are
+/// Describes the verdict on a reaction. The text includes components that are not unique or are
 /// ill-determined.
 fn said(r: &ReactionDocument) -> String {
     let names = |is: &dyn Fn(&&ComponentDocument) -> bool| -> String {
@@ -243,7 +244,8 @@ pub struct DiffLoad {
 }
 
 impl DiffLoad {
-    /// Returns how much the peaks differ, as a fraction of the larger one: 1 if only one exists.
+    /// Returns the difference of the two peaks, as a fraction of the larger peak. The result is 1
+    /// if only one peak exists.
     pub(super) fn change(&self) -> f64 {
         match (self.a, self.b) {
             (Some(a), Some(b)) => {

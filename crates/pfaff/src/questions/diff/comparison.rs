@@ -1,5 +1,5 @@
-//! Comparison of two scenes: changes of ranks, verdicts and dependencies, and the distance of their
-//! motions. Objects correspond if their names are equal.
+//! Comparison of two scenes: changes of ranks, verdicts and dependencies, and the distance between
+//! the motions. Objects correspond to each other if their names are equal.
 
 use std::collections::BTreeMap;
 use std::ops::ControlFlow;
@@ -24,9 +24,9 @@ pub(super) struct Comparison<'a> {
     /// Joints and drives whose type, number of rows, contact or verdicts differ, or with a
     /// component that is ill-determined in only one scene; in the order of the first scene.
     pub(super) verdicts: Vec<VerdictChange<'a>>,
-    /// Dependencies of the first scene that the second does not have.
+    /// Dependencies of the first scene that the second scene does not have.
     pub(super) gone: Vec<&'a DependencyDocument>,
-    /// Dependencies of the second scene that are new.
+    /// Dependencies of the second scene that the first scene does not have.
     pub(super) new: Vec<&'a DependencyDocument>,
 }
 
@@ -113,7 +113,7 @@ fn joints(dependency: &DependencyDocument) -> Vec<&str> {
 const TIMES: f64 = 200.0;
 
 /// Runs both scenes with their own options and compares 201 states, body by body. Returns `None` if
-/// one of them has no `[simulate]`.
+/// one of the scenes has no `[simulate]`.
 ///
 /// # Errors
 /// [`StudyError::Motion`]: one of the motions stopped.
@@ -167,7 +167,7 @@ pub(super) fn motions(first: &Study, second: &Study) -> Result<Option<DiffMotion
     }))
 }
 
-/// Pairs the loads of two motions by their names. Loads that are zero in both are left out.
+/// Pairs the loads of two motions by their names. Loads that are zero in both motions are omitted.
 fn paired(first: Vec<LoadPeak>, second: Vec<LoadPeak>) -> Vec<DiffLoad> {
     let mut all: Vec<DiffLoad> = Vec::new();
     let mut add = |peak: LoadPeak, is_second: bool| {

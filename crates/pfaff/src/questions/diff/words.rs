@@ -1,4 +1,4 @@
-//! Text on the differences of two scenes.
+//! Text about the differences between two scenes.
 
 use std::cmp::Ordering;
 
@@ -7,11 +7,11 @@ use crate::documents::{DependencyDocument, ExtremeDocument};
 use super::answer::{DiffAnswer, DiffLoad, DiffMotion, DiffReaction};
 use crate::words::{Block, Cell};
 
-/// Peaks that differ by less than this fraction of the larger one are not listed: they agree in the
-/// four digits that tables show.
+/// Peaks that differ by less than this fraction of the larger peak are not listed, because they
+/// agree in the four digits that tables show.
 const VISIBLE: f64 = 5e-5;
 
-/// Number of bodies whose motion is listed, and of loads; the document contains all of them.
+/// Number of listed bodies, and number of listed loads. The document contains all bodies and loads.
 const LISTED: usize = 12;
 
 pub(super) fn of(d: &DiffAnswer) -> Vec<Block> {
@@ -51,7 +51,7 @@ pub(super) fn of(d: &DiffAnswer) -> Vec<Block> {
 /// Lists counts of both scenes and their differences.
 fn numbers(d: &DiffAnswer) -> Block {
     let (a, b) = (&d.a, &d.b);
-    // For scenes without drives the second number would equal the first.
+    // For scenes without drives, the second number would be equal to the first number.
     let is_driven = [a, b].iter().any(|d| d.mobility_without_drives.is_some());
     let [x, y] = [a, b].map(|d| d.mobility_without_drives.unwrap_or(d.mobility));
     let released = is_driven.then_some(("mobility without drives", x, y));
@@ -78,7 +78,8 @@ fn numbers(d: &DiffAnswer) -> Block {
     Block::table(["", &a.file, &b.file, ""], lines)
 }
 
-/// Lists joints and drives that were added, removed or changed; `None` if there are no changes.
+/// Lists joints and drives that were added, removed or changed. Returns `None` if there are no
+/// changes.
 fn reactions(d: &DiffAnswer) -> Option<Block> {
     let absent = || "–".to_owned();
     let name = |r: &DiffReaction| r.name.clone().unwrap_or_default();
@@ -114,7 +115,7 @@ fn words(r: &DiffReaction, [with_type, with_contact]: [bool; 2]) -> String {
     all.collect::<Vec<_>>().join(", ")
 }
 
-/// Lists bodies by the distance between their motions, the largest distance first.
+/// Lists bodies by the distance between their motions. The largest distance comes first.
 fn moved(motion: &DiffMotion) -> Vec<Block> {
     if motion.bodies.is_empty() {
         let none = "no body has the same name in both scenes: no motion to compare";
@@ -146,7 +147,7 @@ fn moved(motion: &DiffMotion) -> Vec<Block> {
     blocks
 }
 
-/// Lists the loads whose peaks differ, the largest change first.
+/// Lists the loads whose peaks differ. The largest change comes first.
 fn loaded(motion: &DiffMotion, files: [&str; 2]) -> Vec<Block> {
     let mut changed: Vec<&DiffLoad> = motion.loads.iter().collect();
     let all = changed.len();

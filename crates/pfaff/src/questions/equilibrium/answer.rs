@@ -1,4 +1,5 @@
-//! An equilibrium: its distance from the start, its residual forces, and its reactions.
+//! An equilibrium: the distance from the start, the residual forces, and the reactions at the
+//! equilibrium.
 
 use crate::documents::{
     LoadsDocument, PullDocument, SensitivityDocument, VerdictDocument, loads_at,

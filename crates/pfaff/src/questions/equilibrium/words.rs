@@ -1,4 +1,4 @@
-//! Text on the equilibrium.
+//! Text about the equilibrium.
 
 use std::iter;
 
@@ -90,7 +90,8 @@ fn stability(d: &EquilibriumAnswer) -> String {
 /// A line of a table: its first cells, named numbers, and its last cells.
 type Line<'a> = (Vec<Cell>, Vec<(&'a str, Cell)>, Vec<Cell>);
 
-/// Builds a table with one column for each name of a number, between other columns.
+/// Builds a table with one column for each name of a number. The columns `before` and `after` are
+/// on both sides of these columns.
 fn table(before: &[&str], after: &[&str], lines: &[Line<'_>]) -> Block {
     let mut names: Vec<&str> = Vec::new();
     for (name, _) in lines.iter().flat_map(|(_, named, _)| named) {

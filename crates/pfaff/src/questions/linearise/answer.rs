@@ -98,7 +98,8 @@ pub struct ModeOfMotion {
 }
 
 impl LineariseAnswer {
-    /// Builds the answer for a linearised motion of a scene, with its modes if they are known.
+    /// Builds the answer for a linearised motion of a scene. If the modes are known, the answer
+    /// contains them.
     pub(super) fn new(scene: &str, x: &Linearisation, modes: Option<&[Mode]>) -> Self {
         let states: Vec<&Coordinate> = x.positions.iter().chain(&x.velocities).collect();
         let mode = |mode: &Mode| ModeOfMotion {

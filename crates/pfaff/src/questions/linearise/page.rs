@@ -9,7 +9,7 @@ use super::words::value;
 use crate::report_builder::written_scene;
 use crate::study::Study;
 
-/// Number of modes with separate pages, first the modes with non-zero eigenvalues; other modes are
+/// Number of modes with separate pages. Modes with nonzero eigenvalues come first. Other modes are
 /// only in the tables.
 const PAGES: usize = 12;
 
@@ -23,7 +23,7 @@ const PERIODS: usize = 8;
 /// angle (rad).
 const AMPLITUDE: f64 = 0.15;
 
-/// Returns the pages of the modes that have one, each with the index of its mode, from 0.
+/// Returns the pages of the modes that have a page, each with the index of the mode (0-based).
 pub(super) fn all(
     study: &Study,
     found: &Linearisation,
@@ -34,7 +34,7 @@ pub(super) fn all(
     shown(modes).into_iter().map(page).collect()
 }
 
-/// Selects the modes that have pages: first modes with non-zero eigenvalues, then others.
+/// Selects the modes that have pages: first modes with nonzero eigenvalues, then other modes.
 fn shown(modes: &[Mode]) -> Vec<usize> {
     let (zero, moving): (Vec<usize>, Vec<usize>) =
         (0..modes.len()).partition(|&k| modes[k].value == [0.0; 2]);
@@ -43,7 +43,8 @@ fn shown(modes: &[Mode]) -> Vec<usize> {
     shown
 }
 
-/// Builds a page on which a mode moves for a period, or for one second if it does not oscillate.
+/// Builds a page with the motion of a mode during one period. If the mode does not oscillate, the
+/// duration is one second.
 fn page(
     study: &Study,
     found: &Linearisation,

@@ -29,7 +29,7 @@ pub(super) fn matrices(of: &LineariseAnswer) -> Result<Vec<(&'static str, Vec<u8
 }
 
 /// Writes the eigenvalue, the damped and undamped frequency, the damping ratio and the shape of
-/// each mode; cells without a value are empty.
+/// each mode. Cells without a value are empty.
 pub(super) fn modes(file: &'static str, of: &LineariseAnswer) -> Result<Vec<u8>, TableError> {
     let known = [
         "mode",

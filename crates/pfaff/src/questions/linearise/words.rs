@@ -1,4 +1,4 @@
-//! Text on small motions.
+//! Text about small motions.
 
 use super::answer::{LineariseAnswer, ModeOfMotion};
 use crate::words::{Block, Cell, count};
@@ -98,7 +98,7 @@ fn ranges(all: &[usize]) -> String {
     words.collect::<Vec<_>>().join(", ")
 }
 
-/// Formats an eigenvalue; a conjugate pair is one text.
+/// Formats an eigenvalue. A conjugate pair is one text.
 pub(super) fn value([re, im]: [f64; 2]) -> String {
     match (re, im) {
         (0.0, 0.0) => "0".to_owned(),

@@ -1,4 +1,4 @@
-//! Text on the plan of a run.
+//! Text about the plan of a run.
 
 use dynamics::INDEPENDENT_ROWS;
 
@@ -6,7 +6,8 @@ use super::answer::{PlanAnswer, PlannedDecision};
 use crate::memory::Bytes;
 use crate::words::{Block, count};
 
-/// One table for the whole mechanism, and one for each component if there are several.
+/// Returns one table for the whole mechanism, and one table for each component if there are several
+/// components.
 pub(super) fn of(d: &PlanAnswer) -> Vec<Block> {
     let memory = Bytes(d.memory as u64);
     let (scene, t_end) = (&d.scene, d.t_end);

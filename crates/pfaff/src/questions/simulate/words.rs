@@ -1,4 +1,4 @@
-//! Text on a run.
+//! Text about a run.
 
 use crate::documents::{
     BodyOfRunDocument, ChoiceDocument, MisfitDocument, RunDocument, RunReactionDocument,
@@ -116,7 +116,8 @@ pub(super) fn of(answer: &SimulateAnswer) -> Vec<Block> {
     out
 }
 
-/// Lists the numbers that the model does not determine, and the files that contain values for them.
+/// Lists the numbers that the model does not determine, and the files that contain values of these
+/// numbers.
 fn open(d: &RunDocument) -> Vec<String> {
     let of = |word: &str| -> Vec<&str> {
         let reactions = d.reactions.0.iter();

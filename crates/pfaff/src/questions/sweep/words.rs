@@ -1,4 +1,4 @@
-//! Text on the runs of a sweep.
+//! Text about the runs of a sweep.
 
 use model::words::rough;
 use report::SweepDocument;

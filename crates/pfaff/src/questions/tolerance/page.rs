@@ -9,7 +9,8 @@ use report::{Provenance, figures};
 
 use model::words::short;
 
-/// Largest number of reactions and markers that are drawn; the tables contain all.
+/// Largest number of reactions and markers that are drawn. The tables contain all reactions and
+/// markers.
 const DRAWN: usize = 24;
 
 /// Explanation of the numbers on the page.
@@ -21,8 +22,8 @@ described, the data of a sample can determine its value. The page then shows the
 <em>rigid</em>, if all samples determine them. These values show how strongly the reaction depends on the last digits of the data. No real \
 machine is as stiff as rigid parts without clearance. The histograms show the central part of the samples. The table lists the extremes.</p>\n";
 
-/// Builds the page of the samples; `clouds` contains the positions of markers (m), the described
-/// position first.
+/// Builds the page of the samples. `clouds` contains the positions of markers (m). For each marker,
+/// the described position comes first.
 pub(super) fn of(
     d: &ToleranceDocument,
     clouds: &[(String, Vec<[f64; 3]>)],
@@ -80,7 +81,7 @@ fn reactions(page: &mut String, d: &ToleranceDocument) {
     list(page, &d.without_range());
 }
 
-/// Writes the components of a reaction, one row of the table for each component.
+/// Writes the components of a reaction, with one row of the table for each component.
 fn reaction_rows(page: &mut String, reaction: &ReactionRangeDocument) {
     let verdict = match (reaction.verdict, reaction.fragile) {
         ("unique", true) => "unique, fragile".to_owned(),

@@ -1,4 +1,4 @@
-//! Text on the ranges of verdicts, reactions and positions.
+//! Text about the ranges of verdicts, reactions and positions.
 
 use crate::documents::{BoundsOfSamples, ReactionRangeDocument, ToleranceDocument};
 use model::words::{estimate, quantity};
@@ -8,7 +8,7 @@ use crate::words::{Block, Cell};
 /// Number of reactions that also have a sentence.
 const IN_WORDS: usize = 3;
 
-/// Largest number of lines of a list; a longer list is cut to its first lines and a count.
+/// Largest number of lines of a list. A longer list is reduced to its first lines and a count.
 const LISTED: usize = 12;
 
 pub(super) fn of(d: &ToleranceDocument) -> Vec<Block> {
@@ -44,7 +44,8 @@ pub(super) fn of(d: &ToleranceDocument) -> Vec<Block> {
     blocks
 }
 
-/// Lists the bounds of the first number of each reaction without a range, the largest first.
+/// Lists the bounds of the first number of each reaction without a range. The largest bounds come
+/// first.
 fn bounds(d: &ToleranceDocument) -> Vec<Block> {
     let Some(assumption) = &d.bounds else {
         return Vec::new();

@@ -1,4 +1,4 @@
-//! Text on a comparison.
+//! Text about a comparison.
 
 use report::WorkPrecisionDocument;
 

@@ -44,14 +44,15 @@ fn between_two_runs_the_time_is_straight_in_logarithms() {
     let rows = [run("a", 1e-4, 1e-4, 1e-3), run("a", 1e-6, 1e-6, 1e-2)];
     let at = seconds(&rows, "a", 1e-5).expect("reached");
     assert!((at - 1e-3 * 10_f64.sqrt()).abs() < 1e-12, "{at}");
-    // A looser error takes the time of the loosest run; a tighter error is not reached.
+    // A looser error takes the time of the loosest run. A tighter error is not reached.
     assert_eq!(seconds(&rows, "a", 1e-3), Some(1e-3));
     assert_eq!(seconds(&rows, "a", 1e-7), None);
 }
 
 #[test]
 fn luck_is_not_accuracy() {
-    // The method is accurate at 1e-4, on another branch at 1e-6, and accurate again at 1e-8.
+    // The method is accurate at 1e-4, follows another branch at 1e-6, and is accurate again at
+    // 1e-8.
     let rows = [
         run("a", 1e-4, 1e-6, 1e-3),
         run("a", 1e-6, 1.0, 2e-3),
@@ -84,7 +85,7 @@ fn winners_are_told_for_ranges() {
     let mut rows = Vec::new();
     for k in 3..=12 {
         let tolerance = 10_f64.powi(-k);
-        // The second method is faster down to 1e-6, and its run is abandoned there.
+        // The second method is faster down to 1e-6. Its run at 1e-6 is abandoned.
         rows.push(run("steady", tolerance, tolerance, 1e-3 * f64::from(k)));
         if k <= 6 {
             rows.push(run("quick", tolerance, tolerance, 5e-4 * f64::from(k)));

@@ -93,7 +93,8 @@ pub struct MagnitudeDocument {
 }
 
 impl BoundsDocument {
-    /// States the assumptions for these joints and drives, whose reactions are not unique.
+    /// States the assumptions for these joints and drives. The reactions of these joints and drives
+    /// are not unique.
     pub(super) fn new(
         open: &[&ConstraintGroup],
         has_tolerance: bool,

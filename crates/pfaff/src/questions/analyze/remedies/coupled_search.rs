@@ -1,4 +1,4 @@
-//! The search for the cheapest replacement of coupled joints, which reads cheap types first.
+//! The search for the cheapest replacement of coupled joints. The search tests cheap types first.
 
 use solvability::{CoupledJoints, WeakerJoint};
 
@@ -8,7 +8,7 @@ use super::types::OtherType;
 /// The search for a remedy of coupled joints.
 pub(super) struct CoupledSearch<'t> {
     pub(super) set: &'t CoupledJoints,
-    /// The other types of each joint, the cheapest first.
+    /// The other types of each joint. The cheapest type comes first.
     types: &'t [Vec<OtherType>],
     /// The weaker joints that were found, with their costs.
     pub(super) weaker: Vec<(WeakerJoint, usize)>,
@@ -31,7 +31,7 @@ impl<'t> CoupledSearch<'t> {
         }
     }
 
-    /// Returns the types that one round tries: one of each joint.
+    /// Returns the types that one round tries: one type for each joint.
     pub(super) fn tried(&self, round: usize) -> impl Iterator<Item = &'t OtherType> {
         let types = self.types.iter();
         types.filter_map(move |own| own.get(round))
@@ -46,14 +46,14 @@ impl<'t> CoupledSearch<'t> {
         }
     }
 
-    /// Returns the smallest cost of the types from a round on; `None` if there are no types. No
-    /// cheaper set contains such a type.
+    /// Returns the smallest cost of the types of this round and of all later rounds. Returns `None`
+    /// if there are no types. A set that contains such a type costs at least this much.
     pub(super) fn least_cost(&self, round: usize) -> Option<usize> {
         // The types of a joint are sorted by their cost.
         self.tried(round).map(|other| other.cost).min()
     }
 
-    /// Returns the first of these sets of weaker joints that is verified.
+    /// Returns the first set of weaker joints that is verified.
     pub(super) fn verified(
         &mut self,
         ways: Vec<Vec<usize>>,

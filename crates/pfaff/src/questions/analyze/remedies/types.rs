@@ -1,5 +1,5 @@
-//! Types of joints that may replace a joint. No type is known by name: its description states its
-//! rows and parameters.
+//! Types of joints that may replace a joint. This module contains no names of types. The
+//! description of a type states its rows and parameters.
 
 use joints::spec::{ConstraintSpec, Role, Shape};
 use model::reaction::ConstraintGroup;
@@ -9,9 +9,9 @@ use scene::RetypedJoint;
 
 /// Cost of a joint of another type.
 const CHANGED: usize = 1;
-/// Cost of a force component that a joint no longer transmits; two components of one joint cost
-/// four times as much, because a joint should keep its direction of load. Moments are released
-/// without a cost.
+/// Cost of a force component that a joint no longer transmits. Two components of one joint cost
+/// four times as much, because a joint should still transmit a force along its main direction. A
+/// released moment has no cost.
 const FORCE: usize = 4;
 /// Cost of a direction that the scene does not state.
 const DIRECTION: usize = 6;
@@ -50,9 +50,9 @@ impl OtherType {
     }
 }
 
-/// Returns the types that need no other data than the points of a joint and directions along its
-/// axes, that still transmit a force, and that have fewer rows, but by no more than `released`. The
-/// cheapest types come first.
+/// Returns types that can replace a joint. Such a type needs no other data than the points of the
+/// joint and directions along its axes. It still transmits a force, and it has fewer rows; the
+/// difference is at most `released`. The cheapest types come first.
 pub(super) fn other_types(
     of: Reactions<'_>,
     registry: &Registry,
@@ -141,8 +141,8 @@ fn directions(spec: &'static ConstraintSpec) -> impl Iterator<Item = (&'static s
     })
 }
 
-/// Returns the axes of a joint in the frame of its first body; those of the body if the joint has
-/// no axes.
+/// Returns the axes of a joint in the frame of its first body. If the joint has no axes, returns
+/// the axes of the body.
 fn axes(of: Reactions<'_>, id: ConstraintId, space: SpaceKind) -> Vec<Vec<f64>> {
     let axes = |frame: Frame| of.axes(id, frame).map(|axes| axes.to_vec());
     let body = axes(Frame::FirstBody).or_else(|| axes(Frame::Global));
@@ -151,7 +151,7 @@ fn axes(of: Reactions<'_>, id: ConstraintId, space: SpaceKind) -> Vec<Vec<f64>> 
     let in_body = |axis: &[f64; 3]| {
         let along = |other: &[f64; 3]| {
             let x = linalg::kernels::dot(axis, other);
-            // Rounding is not part of a direction.
+            // Rounding errors are removed from a direction.
             if (x - x.round()).abs() < ROUNDING {
                 x.round()
             } else {
