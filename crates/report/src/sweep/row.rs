@@ -84,7 +84,7 @@ pub struct SweepMotion {
     /// written.
     pub state: Vec<f64>,
     /// Peaks of |F| (N) and |T| (N·m) of the joints and drives of [`SweepPlan::reactions`]. `None`
-    /// for a magnitude that is determined at no time of the run.
+    /// for a magnitude that is not determined throughout the run.
     pub peaks: Vec<[Option<Peak>; 2]>,
     /// Upper bounds of the reactions that are not unique, if the scene requests them.
     pub at_most: Option<BoundsOfRun>,
