@@ -1,5 +1,6 @@
-//! Spatial four-bars in a row, each on the coupler of the one before: seconds for all verdicts on
-//! one thread, the exponent in the number of four-bars, and the memory of the process.
+//! Spatial four-bars in a row: each four-bar stands on the coupler of the previous four-bar. Prints
+//! the time for all verdicts on one thread (s), the exponent of this time in the number of
+//! four-bars, and the memory of the process.
 //!
 //! `cargo run --release -p lab --example four_bars_in_space -- 1000 3000 10000`
 #![allow(clippy::print_stdout)]
@@ -50,8 +51,8 @@ fn main() -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
-/// The answer by theory: three redundant rows and one freedom for each, and only the forces in its
-/// plane are unique.
+/// The result by theory: each four-bar has three redundant rows and one degree of freedom, and only
+/// the forces in the plane of the four-bar are unique.
 fn check(found: &Analysis, n: usize) -> Result<(), String> {
     let unique = |r: &&solvability::ReactionVerdict| r.wrench.verdict.is_unique();
     let unique = found.reactions.iter().filter(unique).count();
@@ -67,7 +68,7 @@ fn check(found: &Analysis, n: usize) -> Result<(), String> {
     Ok(())
 }
 
-/// The most memory that the process has used (MB), if the system reports it.
+/// Largest memory that the process has used (MB), if the system reports this number.
 fn memory() -> Option<f64> {
     let status = std::fs::read_to_string("/proc/self/status").ok()?;
     let line = status.lines().find(|line| line.starts_with("VmHWM:"))?;

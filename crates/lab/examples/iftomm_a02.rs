@@ -22,7 +22,7 @@ const N: usize = 40;
 const T_END: f64 = 20.0;
 const ROWS: usize = 400;
 
-/// Number of steps of the reference between two rows.
+/// Number of steps of the reference solution between two output rows.
 const STEPS: usize = 5000;
 
 fn main() -> Result<(), Box<dyn Error>> {
@@ -44,7 +44,8 @@ fn main() -> Result<(), Box<dyn Error>> {
             let (mut error, mut row) = (0.0_f64, 0);
             let clock = Instant::now();
             let ended = simulate(&study.prepared, &options, |sample| {
-                // The first upright; its top and its foot have the same distance from its centre.
+                // Angle of the first upright. The top and the foot of an upright have the same
+                // distance from the centre.
                 let angle = sample.q[2];
                 let top = [
                     sample.q[0] + 0.5 * angle.cos(),

@@ -1,5 +1,5 @@
-//! Scenes of the plane compared with the same scenes lifted into space: how long a run takes in
-//! both, and how far the bodies are apart at its end.
+//! Compares planar scenes with the same scenes lifted into space: the time of a run in both spaces,
+//! and the distance between the bodies at the end of the run.
 //!
 //! Scenes with a joint that cannot be lifted are omitted, and forces are removed from both models.
 //!
@@ -82,8 +82,8 @@ fn run(mechanism: Mechanism) -> Result<(f64, Vec<f64>), String> {
     Ok((seconds, end))
 }
 
-/// The largest distance of two places of a centre of mass (m): bodies have three numbers in the
-/// plane and seven in space, positions first.
+/// The largest distance between the two positions of a centre of mass (m). A body has three
+/// coordinates in the plane and seven in space; the position comes first.
 fn apart(plane: &[f64], space: &[f64]) -> f64 {
     let bodies = plane.chunks_exact(3).zip(space.chunks_exact(7));
     let distances = bodies.map(|(p, s)| (p[0] - s[0]).hypot(p[1] - s[1]).hypot(s[2]));

@@ -1,5 +1,5 @@
-//! Chains of four-bars through their flat poses, where branches of the motion meet: run time for a
-//! given error, and the number of runs out of sixteen that stay on their branch.
+//! Chains of four-bars pass through flat poses, at which branches of the motion meet. Prints the
+//! run time for a given error, and the number of runs out of sixteen that stay on one branch.
 //!
 //! `cargo run --release -p lab --example n_four_bar -- 1 16 64`
 #![allow(clippy::print_stdout)]
@@ -13,11 +13,11 @@ use pfaff::{RunOptions, Study};
 use suite::generate::n_four_bar::acceleration;
 use suite::generate::{Kind, Order};
 
-/// Last time (s), and number of steps of the reference.
+/// End time (s), and number of steps of the reference solution.
 const T_END: f64 = 5.0;
 const STEPS: u32 = 2_000_000;
 
-/// Number of runs of each size, and the range of their tolerances.
+/// Number of runs of each size, and the range of the tolerances of these runs.
 const RUNS: u32 = 16;
 const SPREAD: f64 = 0.15;
 
@@ -50,7 +50,8 @@ fn main() -> Result<(), Box<dyn Error>> {
                 rows = study.prepared.decision.rank;
                 let mut options = study.options.clone().ok_or("no end")?;
                 options.output_step = T_END;
-                // The last upright; its top and its foot have the same distance from its centre.
+                // Index of the last upright. The top and the foot of an upright have the same
+                // distance from the centre.
                 let upright = 3 * n;
                 let mut miss = f64::INFINITY;
                 let clock = Instant::now();

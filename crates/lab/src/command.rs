@@ -65,8 +65,8 @@ impl CommandLine for Arguments {
     }
 }
 
-/// Runs one command of the laboratory: `arguments` begins with the name of the program. Answers and
-/// exit codes are those of [`pfaff_cli::run`].
+/// Runs one command of the laboratory: `arguments` begins with the name of the program. Outcomes
+/// and exit codes are the same as for [`pfaff_cli::run`].
 pub fn run<'a, I>(
     registry: &'a Registry,
     arguments: I,

@@ -342,7 +342,8 @@ pub(super) fn run(arguments: &Fuzz, console: &Console<'_>) -> Outcome {
     }
 }
 
-/// Tests a text: writes a letter for each stage that begins, and one for the last stage reached.
+/// Tests a text: writes one letter for each stage that begins, and one letter for the last stage
+/// reached.
 fn answer(out: &mut impl Write, text: &str) -> io::Result<()> {
     let mut written = Ok(());
     let mut say = |letter: char| {

@@ -1,5 +1,5 @@
-//! The command `lab work-precision`: compares error and run time, for the methods of pfaff and
-//! others.
+//! The command `lab work-precision`: compares error and run time, for the methods of pfaff and for
+//! reference methods.
 
 use std::path::{Path, PathBuf};
 
@@ -62,8 +62,8 @@ pub(super) fn run(arguments: &WorkPrecision, console: &Console<'_>) -> Outcome {
     })
 }
 
-/// Returns the requested scenes, or those of the suite. All scenes are read before the first one is
-/// run.
+/// Returns the requested scenes, or the scenes of the suite. All scenes are read before the first
+/// scene is run.
 fn subjects(arguments: &WorkPrecision, console: &Console<'_>) -> Result<Vec<Subject>, Failure> {
     let case = |case| of_case(case).map_err(|e| Failure::stopped(e.to_string()));
     if arguments.scenes.is_empty() {
@@ -88,7 +88,7 @@ fn subjects(arguments: &WorkPrecision, console: &Console<'_>) -> Result<Vec<Subj
     scenes.collect()
 }
 
-/// Whether this is a plain name: without a directory or an extension, and not standard input.
+/// Whether this is a plain name: it has no directory and no extension, and is not standard input.
 fn is_bare(path: &Path) -> bool {
     path.components().count() == 1 && path.extension().is_none() && path.as_os_str() != "-"
 }

@@ -203,8 +203,8 @@ impl<'a> Equations<'a> {
         Ok((a, ids.map(of).collect()))
     }
 
-    /// Corrects q and v so that they satisfy the constraints. The corrections are the smallest ones
-    /// in the mass metric.
+    /// Corrects q and v so that they satisfy the constraints. No other corrections are smaller in
+    /// the mass metric.
     ///
     /// # Errors
     /// [`Fault::Projection`], or an error of the independent rows.
@@ -311,8 +311,7 @@ impl Ode for Equations<'_> {
         })
     }
 
-    /// At a jump of the prescribed rates, the velocities jump because of an impulse of the
-    /// constraints.
+    /// If the prescribed rates jump, an impulse of the constraints causes a jump of the velocities.
     fn at_break(&mut self, t: f64, y: &mut [f64]) -> Result<(), Fault> {
         let (q, v) = y.split_at_mut(self.mechanism.layout().n_q);
         self.project_velocity(t, q, v)

@@ -3,9 +3,9 @@
 //!
 //! Column j divides the step into n_j = 2·j equal substeps of the midpoint rule. The results of
 //! columns 1 to k, extrapolated to infinitely many substeps, have order 2k. The smoothing at the
-//! end of the step is omitted, which saves one evaluation per column. Source: the program ODEX of
-//! E. Hairer and G. Wanner; Hairer, Nørsett, Wanner, Solving Ordinary Differential Equations I, 2nd
-//! ed., II.9.
+//! end of the step is omitted, so each column needs one evaluation less. Source: the program ODEX
+//! of E. Hairer and G. Wanner; Hairer, Nørsett, Wanner, Solving Ordinary Differential Equations I,
+//! 2nd ed., II.9.
 
 mod columns;
 mod order;

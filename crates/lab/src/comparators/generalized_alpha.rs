@@ -20,8 +20,8 @@ use super::Fault;
 use super::equations::Equations;
 use super::stepping::{Stepper, Trial};
 
-/// The parameter ρ∞: the factor by which an oscillation of infinite frequency decreases in one
-/// step.
+/// The parameter ρ∞. In one step, an oscillation of infinite frequency is multiplied by this
+/// factor.
 const RHO: f64 = 0.8;
 const ALPHA_M: f64 = (2.0 * RHO - 1.0) / (RHO + 1.0);
 const ALPHA_F: f64 = RHO / (RHO + 1.0);

@@ -169,7 +169,7 @@ fn integrated<'a, M: integrators::Method<Equations<'a>>>(
         &options,
         &wanted,
         |e, t, y| {
-            // A row at a break time contains the state just before it.
+            // A row at a break time contains the state just before this time.
             let t = if breaks.contains(&t) {
                 t.next_down()
             } else {

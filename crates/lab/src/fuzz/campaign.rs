@@ -20,8 +20,8 @@ use crate::fuzz::{input, minimise};
 /// Number of inputs that one process tests.
 const CHUNK: u64 = 2000;
 
-/// Time limit for shortening one text. Each trial of a text that causes an endless loop takes as
-/// long as the time limit of a trial.
+/// Time limit for shortening one text. If a text causes an endless loop, each trial takes as long
+/// as the time limit of a trial.
 const SHORTEN: Duration = Duration::from_secs(20);
 
 /// A set of inputs to test.

@@ -130,7 +130,7 @@ fn one_of(words: &[&str], more: &[&str], numbers: &mut Numbers) -> String {
     word.map_or_else(String::new, |word| (*word).to_owned())
 }
 
-/// Random characters: characters with a meaning in TOML, and others.
+/// Random characters: characters with a meaning in TOML, and other characters.
 const SIGNS: [&str; 16] = [
     "[", "]", "{", "}", "=", ",", ".", "\"", "'", "\n", "#", "-", "é", "\u{feff}", "𝛗", "\u{0}",
 ];

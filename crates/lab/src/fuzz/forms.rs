@@ -153,7 +153,7 @@ fn point(n: &mut Numbers, unknowns: usize) -> Vec<i64> {
         .collect()
 }
 
-/// Returns the form f minus `f(p)·x_k²`, in which `p_k = 1`. The result is zero at p.
+/// Returns the form f minus `f(p)·x_k²`, for an index k with `p_k = 1`. The result is zero at p.
 fn through(mut form: Form, p: &[i64]) -> Form {
     let k = p.iter().position(|x| *x == 1).unwrap_or(0);
     form[k][k] -= value(&form, p);
@@ -209,8 +209,8 @@ fn mechanism(n: &mut Numbers, unknowns: usize) -> Vec<Form> {
         }
     };
     match n.below(3) {
-        // The form of a straight chain between two pins, whose rods point forward or backward, is Σ
-        // ±(y − y')²/l, times 12.
+        // A straight chain between two pins has rods that point forward or backward. The form of
+        // the chain is Σ ±(y − y')²/l, times 12.
         0 => {
             let mut form = zero();
             for k in 0..=unknowns {
@@ -308,8 +308,8 @@ impl Tally {
         tally
     }
 
-    /// Returns the number of undecided sets of random forms in this number of unknowns, and the
-    /// number of all these sets.
+    /// Returns two numbers for random forms in this number of unknowns: the undecided sets, and all
+    /// sets.
     #[must_use]
     pub fn undecided(&self, unknowns: usize) -> [u64; 2] {
         let random = self.counts.iter();

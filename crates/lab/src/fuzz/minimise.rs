@@ -1,5 +1,6 @@
-//! Finds the shortest text with the same failure: ranges of lines are removed, long ones first,
-//! then parts of lines (Zeller and Hildebrandt 2002, doi 10.1109/32.988498, without complements).
+//! Shortens a text that causes a failure, so that the text still causes the failure. Ranges of
+//! lines are removed first, beginning with long ranges; parts of lines follow. Source: Zeller and
+//! Hildebrandt 2002, doi 10.1109/32.988498, without complements.
 
 /// Shortens a text while `fails` is true for the shortened text.
 #[must_use]

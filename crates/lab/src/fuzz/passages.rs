@@ -1,6 +1,6 @@
 //! Parallelograms rotate at speed through their singular configurations, at which another branch of
-//! motion begins. The parallelograms are near the origin or up to a thousand kilometres away from
-//! it, and every method is tested.
+//! motion begins. The distance from the origin is small, or up to a thousand kilometres. Every
+//! method is tested.
 //!
 //! The correct result has a closed form. All cranks have the same angle θ, so the coupler does not
 //! rotate. The energy `½·I·θ̇² + W·sin θ` is constant, with `I = Σ (J + m·l²/4) + M·l²` and
@@ -27,8 +27,8 @@ const SECONDS: f64 = 5.0;
 const PATIENCE: Duration = Duration::from_secs(1);
 
 /// Error bounds of angles and energies as multiples of the tolerance, and the smallest values of
-/// these bounds. A run passes a few dozen singular configurations, and at each the error may be ten
-/// times the tolerance.
+/// these bounds. A run passes a few dozen singular configurations. At each singular configuration
+/// the error may be ten times the tolerance.
 const TOLERANCES: f64 = 1e4;
 
 /// Smallest distance from a singular configuration at which a step of a run can end. This limit of
@@ -129,11 +129,11 @@ impl Parallelogram {
     ///
     /// Coordinates at a distance D from the origin are accurate to `ε·D`, so the angles of cranks
     /// of length l are accurate to `ε·D/l`. At an angle σ from the singular configuration, the
-    /// ratio of the crank speeds then has an error of `ε·D/(l·σ)`. A step that begins or ends at
-    /// this angle transfers the error to the speed of all cranks. The smallest σ at the end of a
-    /// step determines the largest error. The relative error of the rotation angle is then the
-    /// same, and the relative error of the energy is twice as large. Within 2 m of the origin the
-    /// value is below 3e-12. On another branch, angles have errors of some radians.
+    /// ratio of the crank speeds then has an error of `ε·D/(l·σ)`. If a step begins or ends at this
+    /// angle, the speed of all cranks has the same error. The smallest σ at the end of a step
+    /// determines the largest error. The relative error of the rotation angle is then the same, and
+    /// the relative error of the energy is twice as large. Within 2 m of the origin the value is
+    /// below 3e-12. On another branch, angles have errors of some radians.
     fn speed_error(&self) -> f64 {
         let distance = self.origin[0].hypot(self.origin[1]);
         f64::EPSILON * (distance + self.length) / (self.length * NEAREST)
@@ -246,7 +246,7 @@ impl Clock {
 /// Results of many runs.
 #[derive(Clone, Debug, Default)]
 pub struct Tally {
-    /// Number of correct runs and of all runs, by method and position.
+    /// Number of correct runs and number of all runs, by method and position.
     pub counts: BTreeMap<(String, bool), [u64; 2]>,
     /// Runs that stopped or were wrong, with their indices and results.
     pub others: Vec<(u64, Parallelogram, Verdict)>,
@@ -280,7 +280,7 @@ impl Tally {
         counts.fold([0, 0], |[a, b], [right, all]| [a + right, b + all])
     }
 
-    /// Whether no run is wrong, no run stopped late, and at least 97 of 100 passed.
+    /// Whether no run is wrong, no run stopped late, and at least 97 of 100 runs passed.
     #[must_use]
     pub fn passes(&self) -> bool {
         let in_time = |verdict: &Verdict| matches!(verdict, Verdict::Stopped { in_time: true, .. });
@@ -332,8 +332,8 @@ mod tests {
         assert_eq!(tally.counts.len(), 8, "{:?}", tally.counts);
     }
 
-    /// Rounding errors explain practically no error near the origin, and less than a ten-thousandth
-    /// of a radian far away.
+    /// The error due to rounding is negligible near the origin, and less than a ten-thousandth of a
+    /// radian far away.
     #[test]
     fn rounding_explains_errors_far_from_the_origin_only() {
         for number in 0..1000 {

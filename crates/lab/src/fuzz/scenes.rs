@@ -42,7 +42,7 @@ pub fn random(space: Space, numbers: &mut Numbers) -> String {
     if values.numbers.once_in(4) {
         things::measure(&mut draft, &mut values);
     }
-    // First a tree, then additional loops.
+    // The joints of a tree come first, then additional joints that close loops.
     for k in 0..bodies {
         if !values.numbers.once_in(5) {
             let parent = if k == 0 || values.numbers.once_in(3) {

@@ -17,14 +17,14 @@ pub struct Limits {
     pub program: PathBuf,
     /// Longest time for one text.
     pub deadline: Duration,
-    /// Largest memory (MiB), which is enforced if a shell supports the limit.
+    /// Largest memory (MiB). The limit is enforced if a shell supports it.
     pub memory: u64,
 }
 
 /// The failure of a trial.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Fault {
-    /// The process ended: a panic, a stack overflow, no memory.
+    /// The process ended, for instance because of a panic, a stack overflow, or too little memory.
     Died {
         /// Location and cause: the line of the panic, or the way in which the process ended.
         place: String,
@@ -90,7 +90,8 @@ impl Worker {
             .stderr(Stdio::piped())
             .spawn()?;
         if let (Some(mut stdin), Some(text)) = (child.stdin.take(), input) {
-            // If the process has already ended, it does not answer, which is detected later.
+            // If the process has already ended, it does not answer. The missing answer is detected
+            // later.
             let _ = stdin.write_all(text.as_bytes());
         }
         let (send, answers) = channel();

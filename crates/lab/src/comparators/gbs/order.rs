@@ -5,7 +5,7 @@
 
 use super::columns::{COLUMNS, substeps, work};
 
-/// The next step size is `SAFETY · (SAFETY_ERROR / err)^(1/(2j − 1))` times the current one.
+/// The next step size is `SAFETY · (SAFETY_ERROR / err)^(1/(2j − 1))` times the current step size.
 const SAFETY: f64 = 0.94;
 const SAFETY_ERROR: f64 = 0.65;
 /// Factors of h are between `MIN_FACTOR^(1/(2j−1)) / MAX_DIVISOR` and the inverse of
@@ -145,7 +145,7 @@ impl OrderControl {
         self.after_rejection = false;
     }
 
-    /// Returns the size of the next step after an accepted one.
+    /// Returns the size of the next step after an accepted step.
     pub(super) fn accept(&mut self, h: f64) -> f64 {
         let (c, best) = (self.last, self.best());
         let size = if self.after_rejection {
@@ -171,7 +171,7 @@ impl OrderControl {
         size
     }
 
-    /// Returns the size of the next step after a rejected one.
+    /// Returns the size of the next step after a rejected step.
     pub(super) fn reject(&mut self, h: f64) -> f64 {
         self.after_rejection = true;
         self.is_first = false;

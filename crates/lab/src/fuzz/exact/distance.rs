@@ -19,7 +19,7 @@ const FAR: f64 = 30.0;
 pub struct Distance {
     /// The stated tolerance.
     pub tolerance: f64,
-    /// No change below this value lowers the rank.
+    /// Lower bound of the distance: no change below this value lowers the rank.
     pub to_lower_rank: f64,
     /// Whether the redundancy is the same at all configurations.
     pub is_permanent: bool,
@@ -37,13 +37,13 @@ pub enum Left {
 }
 
 impl Distance {
-    /// Whether a lower rank is so distant that all results must be decided.
+    /// Whether the data are so far from a lower rank that all results must be decided.
     #[must_use]
     pub fn is_far(self) -> bool {
         self.to_lower_rank >= FAR * self.tolerance
     }
 
-    /// Compares the rank of a document with the correct one.
+    /// Compares the rank of a document with the correct rank.
     pub fn judge(self, rank: usize, answer: &Value, judged: &mut JudgedStart) -> Left {
         let evidence = &answer["evidence"];
         if evidence["status"] != "decided" {

@@ -11,7 +11,7 @@ use super::drawing::{Side, Tie, Vector};
 use super::pose::Posed;
 use super::ratio::Ratio;
 
-/// A group of data that change together: a point, a direction or a single value.
+/// A group of data values that change together: a point, a direction or a single value.
 #[derive(Clone, Debug)]
 pub struct Block {
     /// Index of the first value of the block.
@@ -22,8 +22,7 @@ pub struct Block {
     pub is_angle: bool,
 }
 
-/// The quantity that a joint or drive keeps constant, with the indices of the values it uses among
-/// the data.
+/// The quantity that a joint or drive keeps constant. The fields are indices of values in the data.
 #[derive(Clone, Copy, Debug)]
 enum Kept {
     /// Points coincide.

@@ -57,7 +57,8 @@ pub enum Tie {
         /// The reference point.
         at: Vector,
     },
-    /// A slider of the second body on a line of the first that is perpendicular to `along`.
+    /// A slider of the second body on a line of the first body. The line is perpendicular to
+    /// `along`.
     Translational {
         /// A point of the line on the first body.
         from: Vector,
@@ -66,7 +67,7 @@ pub enum Tie {
         /// The normal of the line.
         along: Vector,
     },
-    /// A pin of the second body in a slot of the first that is perpendicular to `along`.
+    /// A pin of the second body in a slot of the first body. The slot is perpendicular to `along`.
     PinInSlot {
         /// A point of the slot.
         from: Vector,
@@ -75,7 +76,7 @@ pub enum Tie {
         /// The normal of the slot.
         along: Vector,
     },
-    /// A point on a line of the ground that is perpendicular to `along`.
+    /// A point on a line of the ground. The line is perpendicular to `along`.
     PointOnLine {
         /// The point.
         at: Vector,
@@ -102,7 +103,7 @@ pub enum Tie {
         at: Vector,
         /// The direction of the rack.
         along: Vector,
-        /// Torque about the centre of a unit force along `along`, in units of the drawing.
+        /// Torque of a unit force along `along` about the centre, in units of the drawing.
         radius: Ratio,
     },
     /// A wheel or knife edge.
@@ -125,7 +126,7 @@ pub enum Tie {
         at: Vector,
         /// The direction of rolling.
         along: Vector,
-        /// Torque on the wheel of a unit force along `along`, in units of the drawing.
+        /// Torque of a unit force along `along` on the wheel, in units of the drawing.
         radius: Ratio,
     },
     /// A drive of the angle of a revolute joint.

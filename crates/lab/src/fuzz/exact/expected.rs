@@ -108,8 +108,8 @@ pub struct ExpectedReaction {
     /// Number of independent wrenches that the joint or drive can transmit, which is the rank of
     /// its rows.
     pub carried: usize,
-    /// Number of independent directions of these wrenches along which the reaction is not unique.
-    /// The number of unique directions is `carried − free`.
+    /// Number of independent directions in the space of these wrenches along which the reaction is
+    /// not unique. The number of unique directions is `carried − free`.
     pub free: usize,
     /// Components of the wrench; `None` if the drawing does not define its reference point.
     pub wrench: Option<ExpectedWrench>,

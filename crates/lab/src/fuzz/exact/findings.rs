@@ -111,7 +111,7 @@ pub(super) fn rows(value: &Value) -> Vec<usize> {
 }
 
 /// Returns the largest scalar product of a self-stress wrench and a direction, relative to the
-/// lengths of both, if the product is larger than the rounding error.
+/// lengths of both. Returns `None` if no product is larger than the rounding error.
 pub(super) fn share_of_free(
     free: &[Vec<f64>],
     axes: &[usize],

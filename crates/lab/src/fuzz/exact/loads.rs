@@ -86,7 +86,7 @@ impl Doubles {
         match tie.sides[0] {
             Some(body) => moving(body),
             None => {
-                // The part that the other bodies do not balance.
+                // The part of the load that the other bodies do not balance.
                 let mut others: Vec<usize> = tie.sides[1..].iter().copied().flatten().collect();
                 others.sort_unstable();
                 others.dedup();

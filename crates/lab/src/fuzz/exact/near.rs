@@ -1,7 +1,7 @@
 //! Computes the distance τ* of the data of a drawing from a lower rank. No change of the data by
 //! less than τ* (m) makes a further row redundant, but a larger change may. This module also
 //! determines whether a redundancy exists at all configurations of the mechanism or only at the
-//! drawn one.
+//! drawn configuration.
 //!
 //! A lower rank r' means that r' rows K are independent and the other rows D depend on them. With
 //! `U = [−C_D·C_K⁺, I]` and the null space V of C_K, `Uᵀ·C·V` must be zero at all configurations of
@@ -15,7 +15,7 @@ use super::doubles::Doubles;
 use super::minimax::{Bounds, Equation, least_change};
 
 /// Number of configurations on each side, the distance between two configurations as a fraction of
-/// the size, and the number of steps between them.
+/// the size, and the number of steps between two configurations.
 const POSES: usize = 3;
 const REACH: f64 = 0.05;
 const STEPS: usize = 20;
@@ -388,7 +388,7 @@ fn norm(a: &[f64]) -> f64 {
     dot(a, a).sqrt()
 }
 
-/// Returns the indices of this number of rows, chosen as the most independent ones.
+/// Returns the indices of `rank` rows that are as independent as possible.
 fn independent_rows(c: &Matrix, rank: usize) -> Vec<usize> {
     let mut rest: Vec<Vec<f64>> = (0..c.nrows()).map(|i| c.row(i).to_vec()).collect();
     let mut kept = Vec::new();

@@ -13,7 +13,8 @@ use super::ratio::{Ratio, Surd};
 pub enum Writing {
     /// The original drawing.
     AsDrawn,
-    /// In another order, rotated by multiples of 90°, with other frames of the bodies.
+    /// The elements are in another order, the drawing is rotated by a multiple of 90°, and the
+    /// bodies have other frames.
     Reordered,
     /// Like `Reordered`, and also rotated by any angle and translated by about the size of the
     /// drawing.
@@ -63,7 +64,7 @@ pub struct Frame {
     pub turn: Turn,
 }
 
-/// A joint or drive, and how the scene states its points and direction.
+/// A joint or drive, and the form in which the scene states the points and the direction.
 #[derive(Clone, Debug)]
 pub struct Placed {
     /// The joint.
@@ -224,9 +225,9 @@ fn origin_of(drawing: &Drawing, body: usize, is_as_drawn: bool, numbers: &mut Nu
     }
 }
 
-/// Returns the joints and drives in a random order. For each one, selects at random whether its
-/// bodies are exchanged, in which frames its points are given, and how long its direction vector
-/// is.
+/// Returns the joints and drives in a random order. Three properties of each element are random:
+/// whether the bodies are exchanged, the frames of the points, and the length of the direction
+/// vector.
 fn placed(
     drawing: &Drawing,
     order: &[usize],

@@ -19,7 +19,7 @@ use super::within::Meant;
 use crate::fuzz::space;
 use crate::fuzz::space::text::Precision;
 
-/// Gravity (m/s²), not parallel to an axis.
+/// Gravity (m/s²). The direction is not parallel to an axis.
 const GRAVITY: [f64; 3] = [3.0, -9.0, 0.0];
 
 /// Returns a drawing in the plane, translated by up to its size and rotated.

@@ -138,10 +138,10 @@ pub struct Count {
     pub to_decide: usize,
     /// Scenes without findings.
     pub right: usize,
-    /// Scenes for which another rank is correct, by reason.
+    /// Numbers of scenes for which another rank is also correct, by reason.
     pub other: BTreeMap<&'static str, usize>,
     /// Scenes with findings, by the worst finding and by whether all results must be decided. The
-    /// value is the number of these scenes, and the first ones.
+    /// value is the number of these scenes, and the numbers of the first of them.
     pub not: BTreeMap<(Kind, bool), (usize, Vec<u64>)>,
 }
 
@@ -298,11 +298,11 @@ impl Tally {
         self.wrong() == 0 && few && UNDECIDED_WITHIN * within.undecided() <= within.to_decide
     }
 
-    /// Writes the listed scenes with their answers into a directory, the shortest ones of each
-    /// family and kind.
+    /// Writes the listed scenes with the answers into a directory. For each family, variant and
+    /// kind, the shortest of the listed scenes are written.
     ///
     /// # Errors
-    /// Returns an error if they cannot be written.
+    /// Returns an error if the files cannot be written.
     pub fn keep(&self, seed: u64, folder: &Path) -> io::Result<()> {
         fs::create_dir_all(folder)?;
         for ((family, way), count) in &self.counts {

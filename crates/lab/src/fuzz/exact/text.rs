@@ -179,7 +179,8 @@ impl Pen<'_> {
         self.line("motion", "{ type = \"polynomial\", coefficients = [0.0] }");
     }
 
-    /// Writes points. Each is given with the index of its body in the argument list of the joint.
+    /// Writes points. Each point is given with the index of its body in the argument list of the
+    /// joint.
     fn place(&mut self, placed: &Placed, points: &[(usize, Vector)], is_apart: bool) {
         let sides = &placed.link.sides;
         let is_one = points.windows(2).all(|w| w[0].1 == w[1].1);

@@ -32,7 +32,7 @@ fn rounding_at(distance: f64) -> f64 {
 pub struct Truth {
     wrenches: Wrenches,
     /// The tolerance for components of directions and coefficients of dependencies, relative to the
-    /// largest one.
+    /// largest component or coefficient.
     pub rounding: f64,
     /// Integer multiples of the rows, as wrenches on the first body of the element.
     first: Vec<[BigInt; 6]>,
@@ -126,7 +126,7 @@ impl Truth {
         self.velocities.len() * self.bodies - self.rank()
     }
 
-    /// Returns the rank of some rows.
+    /// Returns the rank of the matrix of some rows.
     #[must_use]
     pub fn rank_of(&self, rows: &[usize]) -> usize {
         self.select(rows).rank()
@@ -235,9 +235,9 @@ impl Truth {
         wrench
     }
 
-    /// Returns the wrenches of some rows of one joint on its first body in the self-stresses, about
-    /// the origin of the drawing. There is one wrench for each independent self-stress; some may be
-    /// 0.
+    /// Returns the wrenches in the self-stresses that some rows of one joint exert on the first
+    /// body of the joint, about the origin of the drawing. There is one wrench for each independent
+    /// self-stress; some may be 0.
     fn free_at_origin(&self, rows: &[usize]) -> Vec<[BigInt; 6]> {
         let of = |z: &Vec<BigInt>| self.wrench(rows.iter().map(|&i| (i, &z[i])));
         self.exact.null_space().iter().map(of).collect()

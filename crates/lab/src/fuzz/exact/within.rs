@@ -16,8 +16,8 @@ use super::pose::Posed;
 use super::truth::Truth;
 use super::words;
 
-/// A reaction counts as linear in the data if the change by all data together is below this
-/// fraction.
+/// A reaction counts as linear in the data if the change of all data together changes the reaction
+/// by less than this fraction.
 const FIRST_ORDER: f64 = 0.1;
 
 /// Factor for the change of several points of a joint together, relative to the effect of the most

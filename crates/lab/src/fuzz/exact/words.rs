@@ -121,7 +121,8 @@ impl Dependency<'_> {
         }
     }
 
-    /// Returns the joints and drives of the dependency, each once, in the order of the file.
+    /// Returns the joints and drives of the dependency without repetition, in the order of the
+    /// file.
     fn owners(&self) -> Vec<Owner> {
         let owners = self.truth.elements.iter().map(|e| e.owner);
         let has = |owner: &Owner| {
@@ -289,8 +290,8 @@ impl Dependency<'_> {
             right.extend(numbers);
         }
         let is_one_sign = signs.windows(2).all(|pair| pair[0] * pair[1] > 0.0);
-        // For a knife edge and a drive, only the absolute value is known here. In addition, all
-        // loads may have the opposite sign.
+        // For a knife edge and a drive, only the absolute value is known here. In addition, the
+        // signs of all loads may be opposite.
         let mut other = right.clone();
         blades.iter().for_each(|&at| other[at] *= -1.0);
         let told_right = [&right, &other]
@@ -348,7 +349,7 @@ fn told<'t>(text: &'t str) -> Vec<(&'t str, &'t str, f64)> {
     quoted.filter_map(load).collect()
 }
 
-/// Whether one list is a multiple of the other, with the same zeros.
+/// Whether one list is a multiple of the other list, with zeros at the same positions.
 fn are_proportional(answer: &[f64], right: &[f64], rounding: f64) -> bool {
     let Some(at) = (0..right.len()).max_by(|&a, &b| right[a].abs().total_cmp(&right[b].abs()))
     else {

@@ -130,7 +130,7 @@ pub struct Row {
 
 impl Row {
     /// Creates a row that acts with a wrench on the second body and with the opposite wrench on the
-    /// first.
+    /// first body.
     #[must_use]
     pub fn between(
         owner: Owner,
@@ -166,7 +166,7 @@ pub struct Element {
 pub struct Component {
     /// Name of the component.
     pub name: &'static str,
-    /// The indices i, each with a and b.
+    /// The terms of the sum: index i, with a and b.
     pub terms: Vec<(usize, [BigInt; 2])>,
     /// The unit of the component.
     pub unit: BigInt,

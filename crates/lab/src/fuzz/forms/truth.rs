@@ -165,8 +165,8 @@ fn changed(forms: &[Form], change: i64) -> Vec<Form> {
     if change == 0 {
         return forms.to_vec();
     }
-    // The matrix is a lower triangular matrix times an upper triangular one, both with ones on the
-    // diagonal.
+    // The matrix is a lower triangular matrix times an upper triangular matrix. Both factors have
+    // ones on the diagonal.
     let entry = |i: usize, j: usize| -> i64 {
         let lower = |i: usize, k: usize| match i.cmp(&k) {
             std::cmp::Ordering::Less => 0,
@@ -265,9 +265,9 @@ fn is_away(f: &Form, face: usize, centre: &[i64]) -> bool {
     value.abs() > slope + curvature
 }
 
-/// Whether the forms change their signs on the sides of a box around a point in the way that proves
-/// a zero in the box (theorem of Poincaré and Miranda). This is possible at zeros with independent
-/// gradients. The computation uses fixed-point numbers: the integer 2^BITS represents 1.
+/// Whether the signs of the forms on the sides of a box around a point prove a zero in the box
+/// (theorem of Poincaré and Miranda). This is possible at zeros with independent gradients. The
+/// computation uses fixed-point numbers: the integer 2^BITS represents 1.
 pub(super) fn has_zero_near(forms: &[Form], at: &[f64]) -> bool {
     const BITS: i32 = 24;
     const RADIUS: i128 = 1 << 8;

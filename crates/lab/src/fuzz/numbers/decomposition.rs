@@ -1,6 +1,6 @@
 //! Computes singular values by one-sided Jacobi rotations (Hestenes 1958, doi 10.1137/0106005). The
-//! method is slow, but small singular values and their vectors are as accurate as large ones, also
-//! if many singular values are equal.
+//! method is slow. Small singular values and their vectors are as accurate as large singular
+//! values, even if many singular values are equal.
 
 use nalgebra::{DMatrix, DVector};
 
@@ -57,7 +57,7 @@ impl Decomposition {
     }
 
     /// Returns the part of the decomposition with singular values above this fraction of the
-    /// largest one.
+    /// largest singular value.
     pub(super) fn above(self, share: f64) -> Self {
         let largest = self.values.first().copied().unwrap_or(0.0);
         let rank = self.values.iter().filter(|x| **x > share * largest).count();

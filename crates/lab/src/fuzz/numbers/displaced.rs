@@ -23,8 +23,8 @@ const SMALL: f64 = 1e-5;
 /// Size of the first step of a displacement.
 const FIRST: f64 = 1e-3;
 
-/// If the effects of displacements in both directions differ by this fraction of their sum, they
-/// are not of first order.
+/// If the effects of displacements in both directions differ by this fraction of their sum, the
+/// effects are not of first order.
 const CURVED: f64 = 0.1;
 
 /// Number of steps of a displacement. With these steps, bodies remain on their branch.
@@ -65,8 +65,8 @@ pub(super) struct Displaced<'a> {
 }
 
 impl<'a> Displaced<'a> {
-    /// Creates the computation at a state, with these independent rows. Returns `None` if they are
-    /// dependent.
+    /// Creates the computation at a state, with these independent rows. Returns `None` if the rows
+    /// are dependent.
     pub(super) fn new(
         mechanism: &'a Mechanism,
         row: &'a Row,

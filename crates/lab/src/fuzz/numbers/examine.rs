@@ -22,7 +22,7 @@ use suite::numbers::Numbers;
 /// Largest difference that counts as agreement at one state, as a fraction of the load.
 const AT_STATE: f64 = 1e-8;
 
-/// A load below this (N) counts as zero.
+/// A load below this value (N) counts as zero.
 const LOAD: f64 = 1e-9;
 
 /// Values below this bound (N) are rounding errors, because inertial forces are computed from
@@ -58,8 +58,8 @@ pub fn examine_by(judge: &dyn Judge, text: &str, numbers: &mut Numbers) -> Findi
 /// A run with all compared data.
 struct Examined<'a> {
     mechanism: &'a Mechanism,
-    /// Output rows of the scene, which are every second row of the run, with the solutions of the
-    /// reference solver.
+    /// Output rows of the scene, with the solutions of the reference solver. The output rows are
+    /// every second row of the run.
     states: Vec<(&'a Row, Instant, Vec<Form>)>,
     verdicts: Vec<OnRun>,
     sets: Vec<Vec<usize>>,
@@ -151,7 +151,8 @@ impl<'a> Examined<'a> {
         format!("{}.{}", group.name, form.name)
     }
 
-    /// Returns all solutions of a state: without the rows of each set, and with elastic joints.
+    /// Returns all solutions at a state: one solution without the rows of each set, and one
+    /// solution with elastic joints.
     fn solutions(&self, instant: &Instant, forms: &[Form]) -> Vec<DVector<f64>> {
         let least = instant.least();
         let mut all: Vec<DVector<f64>> = self

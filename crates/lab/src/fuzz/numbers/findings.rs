@@ -89,13 +89,14 @@ pub enum Count {
     NotDetermined,
     /// Components of the previous count that differ between two solutions.
     Differs,
-    /// Components of this count that have a part in the left null space, but no load acts along it.
+    /// Components that are reported as not determined and have a part in the left null space, if no
+    /// load acts along this part.
     NoLoad,
     /// Undecided components, counted for each interval.
     Undecided,
-    /// Components that are determined and not ill-determined, whose data were displaced.
+    /// Components with displaced data that are determined and not ill-determined.
     Sturdy,
-    /// Components that are determined and ill-determined, whose data were displaced.
+    /// Components with displaced data that are determined and ill-determined.
     Fragile,
     /// Components of the previous count that change by more than 8 %.
     FragileChanges,

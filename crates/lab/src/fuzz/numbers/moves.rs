@@ -21,7 +21,7 @@ const FREE_STEP: f64 = 1e-2;
 /// Largest residual of rows after the step, as a fraction of the size of the mechanism.
 const ON_ROWS: f64 = 1e-12;
 
-/// Singular values below this fraction of the largest one count as zero in a correction.
+/// Singular values below this fraction of the largest singular value count as zero in a correction.
 const ZERO: f64 = 1e-6;
 
 /// Largest number of iterations. If rows are dependent only to second order, each iteration halves

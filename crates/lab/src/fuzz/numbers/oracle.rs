@@ -10,13 +10,14 @@ use nalgebra::{DMatrix, DVector};
 use super::decomposition::Decomposition;
 use super::forms::Form;
 
-/// Singular values below this fraction of the largest one are zero. Singular values of redundant
-/// rows are 1e-15 at exact states and 1e-11 at states that a run has written. Rows with an offset
-/// of a ten-thousandth of the size have singular values above 1e-6.
+/// Singular values below this fraction of the largest singular value count as zero. Singular values
+/// of redundant rows are 1e-15 at exact states and 1e-11 at states that a run has written. Rows
+/// with an offset of a ten-thousandth of the size have singular values above 1e-6.
 const ZERO: f64 = 1e-9;
 
-/// A singular value between these two fractions of the largest one means that the configuration is
-/// near a configuration of lower rank. Near a configuration of lower rank no result is returned.
+/// A singular value between these two fractions of the largest singular value means that the
+/// configuration is near a configuration of lower rank. Near a configuration of lower rank no
+/// result is returned.
 const UNCLEAR: [f64; 2] = [1e-11, 1e-6];
 
 /// Reason why there is no solution.
@@ -39,7 +40,7 @@ pub struct Instant {
     pub size: f64,
     /// The rank of C.
     pub rank: usize,
-    /// The smallest nonzero singular value, divided by the largest one.
+    /// The smallest nonzero singular value, divided by the largest singular value.
     pub sigma: f64,
     /// The largest applied or inertial load (N; torques divided by the size).
     pub load: f64,

@@ -32,8 +32,8 @@ pub(super) fn at_start(
     };
     let q = match assembled.assemble() {
         Ok(assembly) => assembly.q,
-        // The described initial state is consistent, so a mechanism that was not assembled is a
-        // wrong rejection.
+        // The described initial state is consistent, so it is an error of the product if the
+        // mechanism is not assembled.
         Err(_) => return findings.note(Kind::Refused, format!("not assembled: {error}")),
     };
     let mechanism = &assembled.mechanism;
@@ -50,8 +50,8 @@ pub(super) fn at_start(
     }
 }
 
-/// Whether velocities exist that contain the given velocities. These are the values of
-/// `angular_velocity`: one value in the plane, three in space.
+/// Whether possible velocities with the given values exist. The given values are the values of
+/// `angular_velocity`: one value in the plane, three values in space.
 fn has_velocities(mechanism: &Mechanism, q: &[f64]) -> bool {
     let mut s = mechanism.scratch();
     mechanism.pose(0.0, q, &mut s);

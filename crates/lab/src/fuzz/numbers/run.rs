@@ -27,7 +27,7 @@ pub struct Row {
     pub q: Vec<f64>,
     /// Velocities.
     pub v: Vec<f64>,
-    /// Reactions; empty if this state has none.
+    /// Reactions; the list is empty if this state has no reactions.
     pub reactions: Vec<Reaction>,
 }
 
@@ -35,7 +35,7 @@ pub struct Row {
 pub struct Run {
     /// The study that ran.
     pub study: Study,
-    /// Rows of the run, twice as many as the scene requests.
+    /// Rows of the run. There are twice as many rows as the scene requests.
     pub rows: Vec<Row>,
     /// Times at which verdicts may change.
     pub cuts: Vec<f64>,

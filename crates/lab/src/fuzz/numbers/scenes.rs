@@ -117,7 +117,7 @@ fn sketched(space: Space, numbers: &mut Numbers) -> Scene {
     let mut family = format!("{}: {name} {}", word(space), carrier.name());
     let tip = piece(&mut s, &place, &stand);
     if s.numbers.once_in(4) {
-        // The second submechanism is mounted at the tip of the first one.
+        // The second submechanism is mounted at the tip of the first submechanism.
         family.push_str(", and another piece");
         let (_, another) = PIECES[s.numbers.below(PIECES.len())];
         another(&mut s, &place, &tip);

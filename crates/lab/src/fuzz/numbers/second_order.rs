@@ -10,11 +10,11 @@ use super::decomposition::Decomposition;
 use super::oracle::{inverse, units};
 use suite::numbers::Numbers;
 
-/// Singular values below this fraction of the largest one count as zero.
+/// Singular values below this fraction of the largest singular value count as zero.
 const ZERO: f64 = 1e-9;
 
 /// The equations count as satisfied if the residual is below this fraction of their largest term.
-/// The residual is 1e-13 at regular configurations and 1e-2 at singular ones.
+/// The residual is 1e-13 at regular configurations and 1e-2 at singular configurations.
 const HOLDS: f64 = 1e-8;
 
 /// Number of free motions that are tried.
@@ -56,7 +56,7 @@ impl<'m> SecondOrder<'m> {
         })
     }
 
-    /// Returns the smallest nonzero singular value, divided by the largest one.
+    /// Returns the smallest nonzero singular value, divided by the largest singular value.
     pub(super) fn sigma(&self) -> f64 {
         let values = &self.range.values;
         let largest = values.first().copied().unwrap_or(1.0);

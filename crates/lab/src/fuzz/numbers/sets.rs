@@ -18,8 +18,8 @@ const SHARE: f64 = 0.1;
 /// space is below this fraction.
 const NEARLY_NOT: f64 = 1e-3;
 
-/// Components do not determine a solution if a change of this solution changes them by less than
-/// this fraction of the changes by other solutions.
+/// The components do not determine a solution if a change of the multipliers changes the components
+/// by less than this fraction of the effect of other changes.
 const HIDDEN: f64 = 1e-6;
 
 /// Returns random rows whose deletion does not change the rank. The number of these rows is the
@@ -45,7 +45,8 @@ pub fn dropped(instant: &Instant, numbers: &mut Numbers) -> Vec<usize> {
 }
 
 /// Returns the scaled multipliers of the solution without these rows. Returns `None` if the set is
-/// not admissible at this state, or nearly inadmissible, so that the solution is large.
+/// not admissible at this state. Also returns `None` if the set is nearly inadmissible, because the
+/// solution is then large.
 #[must_use]
 pub fn without(instant: &Instant, from: &DVector<f64>, rows: &[usize]) -> Option<DVector<f64>> {
     let z = &instant.null;

@@ -52,7 +52,7 @@ impl Draft {
         }
     }
 
-    /// Returns two bodies, or a body and the ground; the two are mostly different.
+    /// Returns two bodies, or a body and the ground. The two names are mostly different.
     pub(super) fn pair(&self, numbers: &mut Numbers) -> [String; 2] {
         loop {
             let pair = [self.body(numbers, 3), self.body(numbers, 8)];

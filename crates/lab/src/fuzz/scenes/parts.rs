@@ -20,8 +20,8 @@ pub(super) fn begin(draft: &mut Draft, values: &mut Values<'_>, kind: &'static s
     draft.joints.push((name, kind));
 }
 
-/// Adds the point of a joint between two bodies. It is mostly a global point, which is consistent
-/// with any initial configuration.
+/// Adds the point of a joint between two bodies. The point is mostly a global point, which is
+/// consistent with any initial configuration.
 pub(super) fn place(draft: &mut Draft, values: &mut Values<'_>, pair: &[String; 2]) {
     let line = if values.numbers.once_in(8) {
         format!(
@@ -46,7 +46,7 @@ pub(super) fn own_place(draft: &mut Draft, values: &mut Values<'_>) {
     draft.line(&format!("{key} = {}", values.point()));
 }
 
-/// Returns a stiffness or damping, sometimes a very large one.
+/// Returns a stiffness or damping constant; the value is sometimes very large.
 pub(super) fn stiff(values: &mut Values<'_>) -> String {
     if values.numbers.once_in(6) {
         format!("1e{}", values.numbers.between(3, 12))

@@ -224,7 +224,7 @@ fn rolling(draft: &mut Draft, values: &mut Values<'_>, kind: &str) {
     }
 }
 
-/// Returns the joint coordinate of a driven joint, if there is one.
+/// Returns the joint coordinate of a joint that a drive can move, if there is such a joint.
 pub(super) fn measure_of(values: &mut Values<'_>, kind: &str) -> Option<&'static str> {
     match kind {
         "revolute" => Some("angle"),

@@ -2,7 +2,7 @@
 
 use suite::numbers::Numbers;
 
-/// Extreme numbers, which are valid for some keys and invalid for most.
+/// Extreme numbers, which are valid for some keys and invalid for most keys.
 pub(crate) const EXTREMES: [&str; 30] = [
     "0",
     "0.0",
@@ -52,7 +52,7 @@ const NAMES: [&str; 12] = [
     "ground ",
 ];
 
-/// Generates numbers and names; the parameter `wild` determines how often extreme ones occur.
+/// Generates numbers and names; the parameter `wild` determines the frequency of extreme numbers.
 pub(crate) struct Values<'n> {
     pub(crate) numbers: &'n mut Numbers,
     /// The number of components of a point: 2 or 3.
@@ -150,8 +150,8 @@ impl<'n> Values<'n> {
         self.one(&PARAMETERS)
     }
 
-    /// Adds `[parameters]`: mostly numbers and values that can be computed from these numbers, and
-    /// with probability 1/40 a name with a circular definition.
+    /// Adds `[parameters]`: mostly numbers and values that can be computed from these numbers, and,
+    /// with probability 1/40, a parameter with a circular definition.
     pub(crate) fn parameters(&mut self) -> String {
         let mut text = "[parameters]\n".to_owned();
         for (k, name) in PARAMETERS.iter().enumerate() {

@@ -63,7 +63,8 @@ pub fn all() -> Vec<(&'static str, Drawing)> {
     ]
 }
 
-/// A kind of joint of a planar mechanism in space. The normal of its plane is the third axis.
+/// A kind of joint of a planar mechanism in space. The third axis is normal to the plane of the
+/// mechanism.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Flat {
     /// Revolute joint about the normal.
@@ -174,7 +175,7 @@ pub fn four_bar(kinds: [Flat; 4]) -> Drawing {
     ring(&joints.map(|(kind, p)| flat(*kind, &p)).collect::<Vec<_>>())
 }
 
-/// Case V3: R R U S with the axes of the universal joint along z and along the line from C to D.
+/// Case V3: R R U S. The axes of the universal joint are along z and along the line from C to D.
 #[must_use]
 pub fn four_bar_with_flat_cross() -> Drawing {
     let [_, _, at, d] = four_bar_points();
@@ -363,7 +364,7 @@ pub fn grooves(points: &[[i64; 2]]) -> Drawing {
 pub fn hexapod(driven: bool) -> Drawing {
     let mut drawing = Drawing::default();
     let platform = drawing.body();
-    // Rational approximations of the tangents of half of 120°, ±0.25 rad and ±0.8 rad.
+    // Rational approximations of the tangents of 60°, ±0.125 rad and ±0.4 rad.
     let third = Ratio::new(173, 100);
     let turn = |t: &Ratio| Rotation::about(&Vector::unit(2), t);
     for k in 0..3 {
@@ -436,9 +437,9 @@ pub fn delta() -> Drawing {
     drawing
 }
 
-/// Returns four-bars in series. The first four-bar is mounted on the ground, and each other
-/// four-bar on the coupler of the previous one; their planes have different directions. Each
-/// four-bar adds 20 rows, three of which are redundant, and one degree of freedom.
+/// Returns four-bars in series. The first four-bar is mounted on the ground. Each other four-bar is
+/// mounted on the coupler of the previous four-bar. The planes of the four-bars have different
+/// directions. Each four-bar adds 20 rows, three of which are redundant, and one degree of freedom.
 #[must_use]
 pub fn four_bars_in_a_row(count: usize) -> Drawing {
     let turns = [[1, 0, 0, 0], [3, 1, 0, 0], [3, 0, 1, 0], [2, 1, 1, 1]].map(Rotation::whole);

@@ -129,9 +129,10 @@ fn piece(drawing: &mut Drawing, family: Family, base: Side, numbers: &mut Number
 }
 
 /// Draws two submechanisms. The second submechanism is mounted on the ground or on a body of the
-/// first. The redundancies can then be added, because a self-stress of the second submechanism
-/// exerts no load on its base. Up to two further joints connect both. If the base of the second is
-/// the ground, a joint to one of its bodies closes a loop through the ground.
+/// first submechanism. The redundancies can then be added, because a self-stress of the second
+/// submechanism exerts no load on its base. Up to two further joints connect both submechanisms. If
+/// the base of the second submechanism is the ground, a joint to one of its bodies closes a loop
+/// through the ground.
 fn several(drawing: &mut Drawing, numbers: &mut Numbers) {
     let pieces = [0; 2].map(|_| Family::ALL[numbers.below(Family::ALL.len() - 1)]);
     piece(drawing, pieces[0], GROUND, numbers);

@@ -21,8 +21,8 @@ impl Graph {
         self.edges.len() + self.components() - self.nodes
     }
 
-    /// Whether the edge with this name is on a cycle: without this edge the number of components is
-    /// the same. Returns `None` if the edge does not exist.
+    /// Whether the edge with this name is on a cycle. This is the case if the number of components
+    /// is the same without this edge. Returns `None` if the edge does not exist.
     #[must_use]
     pub fn is_on_cycle(&self, name: &str) -> Option<bool> {
         let place = self.edges.iter().position(|(own, _)| own == name)?;

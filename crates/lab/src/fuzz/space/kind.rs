@@ -3,8 +3,8 @@
 use super::ratio::Ratio;
 use super::vector::Vector;
 
-/// The type and position of a joint. The point `from` is on the first body, and `at` on the second.
-/// Directions have any length except 0.
+/// The type and position of a joint. The point `from` is on the first body, and the point `at` is
+/// on the second body. Directions have any length except 0.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Kind {
     /// Both bodies share a point.

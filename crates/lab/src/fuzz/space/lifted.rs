@@ -2,10 +2,10 @@
 //! it, and some joints get additional rows that constrain bodies to the plane.
 //!
 //! The graph of these joints has the ground as a node and L independent cycles. The redundancy
-//! increases by 3·L, and the mobility by 3 for each component of the graph without the ground.
-//! Verdicts on in-plane components are the same. The out-of-plane components (Fz, Tx, Ty) of a
-//! joint are not unique if and only if the joint is on a cycle. This rule follows from the graph
-//! alone, without elimination.
+//! increases by 3·L. The mobility increases by 3 for each component of the graph without the
+//! ground. The verdicts on in-plane components do not change. The out-of-plane components (Fz, Tx,
+//! Ty) of a joint are not unique if and only if the joint is on a cycle. This rule follows from the
+//! graph alone, without elimination.
 //!
 //! | in the plane | in space |
 //! | --- | --- |
@@ -192,7 +192,7 @@ impl Lift {
         body.moving().map_or(0.0, |k| self.angles[k])
     }
 
-    /// Converts axes from the frame of the first body to the frame of the second.
+    /// Converts axes from the frame of the first body to the frame of the second body.
     fn carried(&self, [i, j]: [BodyRef; 2], axes: Axes) -> Axes {
         let (sin, cos) = (self.angle(i) - self.angle(j)).sin_cos();
         axes.map(|[x, y, z]| [cos * x - sin * y, sin * x + cos * y, z])

@@ -1,11 +1,12 @@
 //! Decides to first order, in exact arithmetic, whether a redundancy exists at all configurations
-//! or only at the drawn one. The test uses velocities v that the holonomic rows without drives
-//! allow. Along a motion with velocities v, the rank is the same to first order if and only if
-//! `Zᵀ·Ċ(v)·N = 0`, with bases Z of null(Cᵀ) and N of ker C.
+//! or only at the drawn configuration. The test uses velocities v that the holonomic rows without
+//! drives allow. Along a motion with velocities v, the rank is the same to first order if and only
+//! if `Zᵀ·Ċ(v)·N = 0`, with bases Z of null(Cᵀ) and N of ker C.
 //!
 //! The rows of a joint are a set of wrenches that spans all wrenches of the joint. Each wrench is a
 //! product of at most two vectors, so the difference over ±v is exactly twice the derivative.
-//! Additional wrenches in a set depend on the others at every configuration and have no effect.
+//! Additional wrenches in a set depend on the other wrenches at every configuration, so they have
+//! no effect.
 
 use exact::Exact;
 use num_bigint::BigInt;
@@ -24,8 +25,8 @@ type Twist = [Vector; 2];
 /// Returns the rank of a drawing at other configurations.
 ///
 /// The result is "same" if the rank of all rows and the rank of the holonomic rows are both the
-/// same to first order along all velocities. Rows that prevent slip may constrain to first order a
-/// motion that the other rows allow, for example of a tilting wheel on a spherical hub; the result
+/// same to first order along all velocities. Rows that prevent slip may exclude to first order a
+/// motion that the other rows allow. An example is a tilting wheel on a spherical hub. The result
 /// is then "unknown". The result is "higher" if the rank of all rows increases along a velocity
 /// that certainly belongs to a motion, because the holonomic rows without drives are independent.
 #[must_use]

@@ -1,7 +1,7 @@
 //! Variants of a drawing, which describe the same mechanism in different ways. The drawing is moved
 //! as a whole, bodies have other frames and mass centres, bodies and joints are in another order,
-//! and first and second body are exchanged. The uniqueness of a wrench is the same for all
-//! variants; only the components of the wrench change.
+//! and the first and the second body of some joints are exchanged. The uniqueness of a wrench is
+//! the same for all variants; only the components of the wrench change.
 
 use suite::numbers::Numbers;
 

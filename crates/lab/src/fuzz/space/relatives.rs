@@ -16,7 +16,7 @@ pub fn change_one(drawing: &mut Drawing, first: usize, numbers: &mut Numbers) ->
         return false;
     }
     let place = first + numbers.below(count);
-    // A driven joint is not changed, because its joint coordinates are needed.
+    // A driven joint is not changed, because the drive needs the joint coordinate.
     if drawing.drives.iter().any(|d| d.joint == place) {
         return false;
     }
@@ -133,7 +133,7 @@ pub fn any(numbers: &mut Numbers) -> Vector {
     }
 }
 
-/// Returns any direction perpendicular to another one.
+/// Returns any direction perpendicular to a given direction.
 #[must_use]
 pub fn any_across(w: &Vector, numbers: &mut Numbers) -> Vector {
     loop {

@@ -1,7 +1,8 @@
 //! Constraint rows as screws, derived by virtual work. A unit multiplier of a row acts with
-//! opposite wrenches on the two bodies, and these do no work in any motion that the joint allows.
-//! The row is the wrench on the second body: force, and moment about the origin of the ground. No
-//! derivatives are used. Rows have any scale, because directions are not divided by their length.
+//! opposite wrenches on the two bodies. These wrenches do no work in any motion that the joint
+//! allows. The row is the wrench on the second body: force, and moment about the origin of the
+//! ground. No derivatives are used. Rows have any scale, because directions are not divided by
+//! their length.
 //!
 //! | element | wrenches on the second body; (F; M) with M about the origin |
 //! | --- | --- |
@@ -80,9 +81,9 @@ impl From<&Drawing> for Wrenches {
 }
 
 /// Returns the directions u, v perpendicular to the axis w of a joint. The direction u comes from
-/// the key `cross` if it exists. Otherwise it comes from the coordinate axis of the first body with
-/// the smallest component along w; if several are equal, from the first of them. The direction v is
-/// w × u.
+/// the key `cross` if this key exists. Otherwise u comes from the coordinate axis of the first body
+/// with the smallest component along w. If several components are equal, the first of these axes is
+/// used. The direction v is w × u.
 #[must_use]
 pub fn basis(drawing: &Drawing, joint: &Joint, w: &Vector) -> [Vector; 2] {
     let u = match &joint.cross {

@@ -1,5 +1,5 @@
-//! Tests the exact reference in space: verdicts known from theory, and changes of its data that
-//! must be detected.
+//! Tests the exact reference in space: verdicts that follow from theory, and changes of the data
+//! that must be detected.
 
 use std::collections::BTreeMap;
 
@@ -9,11 +9,11 @@ use crate::fuzz::exact::expected::Verdict;
 use crate::fuzz::exact::truth::{Reaction, Truth};
 use crate::fuzz::exact::wrench::Owner;
 
-/// Number of scenes: five of each of the 12 families, in each of the 4 variants.
+/// Number of scenes: five drawings of each of the 12 families, in each of the 4 variants.
 const SCENES: u64 = 12 * 4 * 5;
 
-/// For each joint or drive, by name: whether wrench and force are unique, the number of directions
-/// of its wrenches, and the number of directions that are not unique.
+/// For each joint or drive, by name: whether the wrench is unique, whether the force is unique, the
+/// number of directions of the wrenches, and the number of directions that are not unique.
 type Verdicts = BTreeMap<String, (bool, bool, usize, usize)>;
 
 /// Returns the results that do not depend on the variant: ranks and verdicts.

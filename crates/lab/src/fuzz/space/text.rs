@@ -266,7 +266,7 @@ impl Pen<'_> {
         self.line("motion", "{ type = \"polynomial\", coefficients = [0.0] }");
     }
 
-    /// Writes the position: one point of the ground, or two in the frames of the bodies.
+    /// Writes the position: one point of the ground, or two points in the frames of the bodies.
     fn place(&mut self, joint: &Joint, from: &Vector, at: &Vector) {
         if joint.is_placed_in_ground() {
             let at = self.length(at);
@@ -290,7 +290,8 @@ impl Pen<'_> {
         self.length(&local)
     }
 
-    /// Writes the frame of directions, unless it is the frame of the first body, and returns it.
+    /// Writes the frame of directions, unless this frame is the frame of the first body. Returns
+    /// the frame.
     fn directions_of(&mut self, joint: &Joint) -> Side {
         if joint.style.directions == Directions::Ground {
             self.line("frame", "\"global\"");

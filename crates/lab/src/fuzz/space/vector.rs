@@ -66,7 +66,7 @@ impl Vector {
         ])
     }
 
-    /// Returns the square of its length.
+    /// Returns the square of the length.
     #[must_use]
     pub fn square(&self) -> Ratio {
         self.dot(self)
@@ -191,7 +191,8 @@ impl Rotation {
         }
     }
 
-    /// Applies first `other`, then `self`: the product of the quaternions.
+    /// Returns the rotation that applies first `other`, then `self`. This is the product of the
+    /// quaternions.
     #[must_use]
     pub fn after(&self, other: &Self) -> Self {
         let w = &(&self.w * &other.w) - &self.u.dot(&other.u);
@@ -258,7 +259,7 @@ impl Motion {
         self.shift.along(&self.scale, &self.turn.of(p))
     }
 
-    /// Applies first `other`, then `self`.
+    /// Returns the transformation that applies first `other`, then `self`.
     #[must_use]
     pub fn after(&self, other: &Self) -> Self {
         Self {

@@ -1,8 +1,8 @@
 //! Compares answers for drawings with 3 … 16 significant digits with exact arithmetic. These are
 //! cases of the campaign in [`crate::fuzz::exact::rounded`].
 //!
-//! The singular values of the dimensionless rows give the distance of the drawing from a lower
-//! rank, and from other verdicts. A change of the matrix by δ does not change the rank if δ < σ_r,
+//! The singular values of the dimensionless rows bound the distance of the drawing from a lower
+//! rank and from other verdicts. A change of the matrix by δ does not change the rank if δ < σ_r,
 //! and rotates its null space by at most δ/σ_r (Wedin 1972, doi 10.1007/BF01932678).
 
 use linalg::{Matrix, small_svd};
@@ -24,7 +24,8 @@ use crate::fuzz::exact::wrench::Wrench;
 /// lever arm or a direction may change.
 const CHANGES: f64 = 4.0;
 
-/// Returns the results for one drawing, translated by up to its size, with each number of digits.
+/// Returns the results for one drawing with each number of digits. The drawing is translated by up
+/// to its size.
 #[must_use]
 pub fn outcomes(seed: u64, drawn: u64) -> Vec<Outcome> {
     // The third variant.
@@ -59,7 +60,7 @@ pub fn outcomes(seed: u64, drawn: u64) -> Vec<Outcome> {
     DIGITS.iter().enumerate().map(one).collect()
 }
 
-/// The correct results for a drawing, with their distance from other results.
+/// The correct results for a drawing, with the distance of the drawing from other results.
 pub struct Meant {
     truth: Truth,
     right: Expected,
@@ -86,7 +87,7 @@ impl Meant {
         }
     }
 
-    /// Returns the accuracy of C for data with this tolerance (m).
+    /// Returns the accuracy of C that follows from data with this tolerance (m).
     fn known(&self, tolerance: f64) -> f64 {
         CHANGES * (self.truth.rows.len() as f64).sqrt() * tolerance / self.size
     }
@@ -191,7 +192,7 @@ fn size(drawing: &Drawing) -> f64 {
     distances.fold(0.1, f64::max)
 }
 
-/// Measures how far combinations of multipliers are from being unique.
+/// Computes the distance of combinations of multipliers from unique combinations.
 struct Margins {
     sigma: f64,
     /// Orthonormal combinations of rows that span the range of C, as columns.

@@ -23,8 +23,8 @@ pub(super) fn start(study: &Study) {
     assert_eq!(p.decision.rank + p.decision.redundancy, layout.rows());
 }
 
-/// Checks that verdicts are consistent with the rank, the dependencies and each other, and that the
-/// document is readable.
+/// Checks that the verdicts are consistent with each other, with the rank and with the
+/// dependencies. Also checks that the document is readable.
 pub(super) fn check(configuration: &ConfigurationAnalysis<'_>) {
     let analysis = &configuration.analysis;
     let decision = &analysis.decision;

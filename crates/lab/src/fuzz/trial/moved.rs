@@ -29,9 +29,9 @@ const FAR_ROUNDINGS: f64 = 8.0 * f64::EPSILON;
 /// Largest rates of a body at rest, as a fraction of the size of the mechanism per second.
 const REST: f64 = 1e-14;
 
-/// Simulates the motion within the limits of a trial. Returns how far the simulation came, and the
-/// number of output rows. The tables are written in the format of `simulate`, and the function
-/// checks that they can be read.
+/// Simulates the motion within the limits of a trial. Returns the stage that the simulation
+/// reached, and the number of output rows. The tables are written in the format of `simulate`, and
+/// the function checks that they can be read.
 pub(super) fn check(study: &Study) -> (Reach, usize) {
     let plan = match study.plan() {
         Ok(plan) => plan,
@@ -139,8 +139,8 @@ struct Rows<'m> {
     is_projected: bool,
     size: f64,
     last: f64,
-    /// If redundant rows may be violated, the largest residual of each row above the limits of this
-    /// check.
+    /// The largest residual of each row above the limits of this check. `None` if redundant rows
+    /// must not be violated.
     missed: Option<Vec<f64>>,
 }
 

@@ -14,8 +14,8 @@ pub(super) fn doubled(pen: &mut Pen<'_>) {
         let first = pen.numbers.below(7);
         one_of(pen, first, [base, body], at, u);
         for _ in 0..pen.numbers.below(3) {
-            // The second joint usually has the same kind. It is at the same point or at another
-            // point, and has rarely another direction.
+            // The second joint usually has the same kind. The second joint is at the same point or
+            // at another point, and rarely has another direction.
             let kind = if pen.once_in(4) {
                 pen.numbers.below(7)
             } else {

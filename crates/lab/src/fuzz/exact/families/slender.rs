@@ -23,7 +23,7 @@ pub enum Slender {
     ThinTriangle,
     /// A parallelogram with short sides.
     ThinLoop,
-    /// Edges whose normals are at a small angle.
+    /// Knife edges with a small angle between their normals.
     SteepEdges,
     /// A slot at a small angle to a slider.
     SteepSlot,
@@ -160,7 +160,7 @@ fn offset_pin(pen: &mut Pen<'_>) {
         );
     }
     if pen.once_in(2) {
-        // Another well-constrained part, which makes the whole drawing larger.
+        // A further well-constrained part makes the whole drawing larger.
         let (far, end) = (pen.point(), pen.point());
         let other = pen.body();
         pen.hinge([door, other], far);

@@ -19,8 +19,8 @@ use suite::numbers::Numbers;
 const CHOSEN: f64 = 1e-7;
 
 impl Examined<'_> {
-    /// Compares the requested solutions of the product at one state with those of the reference
-    /// solver.
+    /// Compares the requested solutions of the product at one state with the solutions of the
+    /// reference solver.
     pub(super) fn choices(&self, judge: &dyn Judge, which: usize, findings: &mut Findings) {
         let state = &self.states[which];
         let (row, instant, forms) = state;

@@ -1,4 +1,4 @@
-//! Test (a) in separate runs of the product, each with other redundant rows.
+//! Test (a) in separate runs of the product. Each run has other redundant rows.
 
 use super::Examined;
 use crate::fuzz::numbers::findings::{Count, Findings, Kind};
@@ -11,7 +11,7 @@ const BETWEEN_RUNS: f64 = 1e-7;
 const SAME_STATE: f64 = 1e-10;
 
 impl Examined<'_> {
-    /// Performs test (a) in separate runs, each with other redundant rows.
+    /// Performs test (a) in separate runs. Each run has other redundant rows.
     pub(super) fn between_runs(&self, judge: &dyn Judge, text: &str, findings: &mut Findings) {
         for rows in self.sets.iter().take(2) {
             // A set of rows that is admissible during the run may not be admissible at the initial

@@ -11,16 +11,17 @@ use crate::fuzz::numbers::verdicts::{Judge, Word};
 /// Two solutions differ if a component differs by more than this fraction of the load.
 const DIFFERS: f64 = 1e-6;
 
-/// A component is not determined if the fraction of it in the left null space exceeds this value
-/// divided by the smallest singular value. For states that satisfy the constraints to 1e-12, this
-/// is the accuracy of the null space.
+/// A component is not determined if its fraction in the left null space exceeds this value divided
+/// by the smallest singular value. For states that satisfy the constraints to 1e-12, this is the
+/// accuracy of the null space.
 const FREE: f64 = 1e-10;
 
 impl Examined<'_> {
     /// Performs tests (a) and (b) at each state.
     pub(super) fn at_states(&self, judge: &dyn Judge, findings: &mut Findings) {
-        // By component and interval: whether solutions differ in the interval, and whether the
-        // component is not determined there. `None` if the interval contains no state.
+        // Two values for each component and interval: whether solutions differ in the interval, and
+        // whether the component is not determined in the interval. `None` if the interval contains
+        // no state.
         let own = self.verdicts.iter().map(|own| own.stretches.len());
         let mut found: Vec<Vec<Option<[bool; 2]>>> = own.map(|count| vec![None; count]).collect();
         for state in &self.states {

@@ -89,9 +89,9 @@ fn sliding(s: &mut Sketch<'_>, place: &Place) -> Stand {
     (base, [0.0; 2])
 }
 
-/// Draws a chassis on two to four wheels that prevent sideways motion, in half of the cases with a
-/// steered axle. In space, the chassis is also constrained to the given plane. The chassis moves at
-/// up to 1.5 m/s. Without a steered axle it may also rotate about a separate point.
+/// Draws a chassis on two to four wheels that prevent sideways motion, and in half of the cases one
+/// axle is steered. In space, the chassis is also constrained to the given plane. The chassis moves
+/// at up to 1.5 m/s. Without a steered axle it may also rotate about a separate point.
 fn vehicle(s: &mut Sketch<'_>, place: &Place) -> Stand {
     let is_steered = s.numbers.once_in(2);
     let (speed, turn) = (s.numbers.within(0.2, 1.5), s.numbers.within(-1.5, 1.5));

@@ -1,6 +1,6 @@
 //! Submechanisms: repeated pivots and slides, cranks, chains, sliders, gears, and bodies with more
-//! bars or hinges than necessary, some with a small misalignment. Each function returns a body and
-//! a point of this body, on which another submechanism may be mounted.
+//! bars or hinges than necessary. Some submechanisms have a small misalignment. Each function
+//! returns a body and a point of this body, on which another submechanism may be mounted.
 
 use super::sketch::{Flat, Place, Side, Sketch, across, along};
 use crate::fuzz::scenes::Space;
@@ -216,8 +216,8 @@ pub(super) fn gears(s: &mut Sketch<'_>, place: &Place, (base, at): &Stand) -> St
     (wheels[2].clone(), p)
 }
 
-/// Adds a body on bars, some of them redundant: three to five bars in the plane, six to eight in
-/// space.
+/// Adds a body on bars; some bars are redundant. There are three to five bars in the plane, and six
+/// to eight bars in space.
 pub(super) fn braced(s: &mut Sketch<'_>, place: &Place, (base, at): &Stand) -> Stand {
     let far = along(*at, 0.6, s.heading());
     let body = s.body(place, far);
@@ -237,9 +237,9 @@ pub(super) fn braced(s: &mut Sketch<'_>, place: &Place, (base, at): &Stand) -> S
     (body, far)
 }
 
-/// Adds a body that is locked by a misalignment of some tenths of a millimetre: hinges in a row,
-/// one of them displaced from the axis, or a pin and a bar whose line nearly passes through the
-/// pin.
+/// Adds a body that is locked by a misalignment of some tenths of a millimetre. The body has hinges
+/// in a row, and one hinge is displaced from the axis; or the body has a pin and a bar, and the
+/// line of the bar nearly passes through the pin.
 pub(super) fn slightly_off(s: &mut Sketch<'_>, place: &Place, (base, at): &Stand) -> Stand {
     let h = s.heading();
     let far = along(*at, 0.6, h);

@@ -1,4 +1,4 @@
-//! A mechanism that is being written as the text of a scene. Submechanisms are drawn in a plane,
+//! A mechanism while it is written as the text of a scene. Submechanisms are drawn in a plane,
 //! which is the plane of the scene or any plane in space.
 
 use std::fmt::Write;

@@ -208,8 +208,8 @@ fn v18_hexapod() {
     assert_eq!(left, Some([72, 0, 6]));
 }
 
-/// Each parallelogram has three redundant rows. The platform has three more, because each of the
-/// three legs prevents two rotations of the platform by two couples.
+/// Each parallelogram has three redundant rows. The platform has three further redundant rows,
+/// because each of the three legs prevents two rotations of the platform by two couples.
 #[test]
 fn v19_delta() {
     assert_eq!(counts(&answer(&delta())), [105, 93, 12, 3]);

@@ -35,7 +35,7 @@ fn tree(pen: &mut Pen<'_>) {
     }
 }
 
-/// Draws a loop of joints; in two of three loops most of the axes are parallel.
+/// Draws a loop of joints. In two of three loops, most axes are parallel.
 fn ring(pen: &mut Pen<'_>) {
     let n = 3 + pen.numbers.below(4);
     let (common, centre) = (pen.direction(), pen.point());

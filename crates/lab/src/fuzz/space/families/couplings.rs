@@ -101,7 +101,7 @@ fn universal(pen: &mut Pen<'_>) {
         bearing(pen, &centre, &first),
         bearing(pen, &centre, &second),
     );
-    // The axes of the cross are perpendicular to each other, and each is perpendicular to its
+    // The axes of the cross are perpendicular to each other, and each axis is perpendicular to its
     // shaft.
     let a = pen.across(&first);
     let b = second.cross(&a);

@@ -25,7 +25,7 @@ pub(super) fn cylinders(pen: &mut Pen<'_>) {
         let [foot, pin] = [1, 2].map(|i| points[i].along(&height, &z));
         let rod = &pin - &foot;
         let middle = foot.along(&Ratio::new(1, 3), &rod);
-        // If a cylindrical joint replaces the translational one, its tube can spin.
+        // If a cylindrical joint replaces the translational joint, the tube can spin.
         let slides = if with_guides {
             translational(&middle, &rod)
         } else {

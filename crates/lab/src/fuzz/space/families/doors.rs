@@ -35,8 +35,8 @@ pub(super) fn doors(pen: &mut Pen<'_>) {
         let joint = pen.joint([base, door], kind);
         hinge = measure.map(|m| (joint, m)).or(hinge);
     }
-    // Two or more hinges allow the rotation of the door. They also allow sliding along the axis, if
-    // no hinge constrains the door along the axis.
+    // Two or more hinges allow the rotation of the door. If no hinge constrains the door along the
+    // axis, the door can also slide along the axis.
     pen.expects(rows - if holds_along { 5 } else { 4 });
     if let Some((joint, measure)) = hinge.filter(|_| pen.once_in(4)) {
         pen.drive(joint, measure);

@@ -113,7 +113,7 @@ impl<'a> Pen<'a> {
         }
     }
 
-    /// Returns a direction perpendicular to another one.
+    /// Returns a direction perpendicular to a given direction.
     pub(super) fn across(&mut self, w: &Vector) -> Vector {
         any_across(w, self.numbers)
     }

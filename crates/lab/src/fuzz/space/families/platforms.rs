@@ -1,5 +1,4 @@
-//! Platforms on rods and legs, with rods that can spin about their axes and with dependent lines of
-//! force.
+//! Platforms on rods and legs. Rods can spin about their axes, and lines of force can be dependent.
 
 use super::super::catalogue::translational;
 use super::super::drawing::{Kind, Measure};
@@ -15,7 +14,7 @@ pub(super) fn platforms(pen: &mut Pen<'_>) {
     }
 }
 
-/// Returns the ends of n bars, each with one end on the base and one on the platform.
+/// Returns the ends of n bars. Each bar has one end on the base and one end on the platform.
 fn ends(pen: &mut Pen<'_>, n: usize) -> Vec<[Vector; 2]> {
     let way = pen.numbers.below(6);
     let (zero, height) = (Ratio::zero(), &pen.whole(1, 6) * &pen.step);

@@ -45,9 +45,9 @@ fn wheel(pen: &mut Pen<'_>, chassis: Side, [x, y]: [&Ratio; 2], radius: &Ratio, 
 }
 
 /// Draws four wheels at the corners of a rectangle; the front wheels are steered in parallel. In
-/// the straight position the self-stresses are one pattern of normal forces and one side force on
-/// each axle. In the steered position with separate axles, the two side forces of each axle act on
-/// two separate lines, and all motion is blocked.
+/// the straight position, one self-stress consists of normal forces, and each axle has one
+/// self-stress of side forces. In the steered position with separate axles, the two side forces of
+/// each axle act on two separate lines, and all motion is blocked.
 fn car(pen: &mut Pen<'_>, half_tangent: &Ratio) {
     let chassis = pen.body();
     let (length, width) = (&pen.whole(1, 6) * &pen.step, &pen.whole(1, 4) * &pen.step);
@@ -65,7 +65,8 @@ fn car(pen: &mut Pen<'_>, half_tangent: &Ratio) {
     }
 }
 
-/// Draws three to five wheels at random positions, each rotated independently or like the others.
+/// Draws three to five wheels at random positions, The wheels are rotated independently or all by
+/// the same angle.
 fn turned(pen: &mut Pen<'_>) {
     let chassis = pen.body();
     let n = 2 + pen.numbers.below(4);
@@ -94,8 +95,8 @@ fn tilted(pen: &mut Pen<'_>) {
         let [cosine, sine] = pen.angle();
         let turn = pen.turn_about(2);
         let radius = &pen.whole(1, 4) * &pen.step;
-        // The vector from the centre to the lowest point is along (0, −sine, −cosine) before the
-        // rotation, perpendicular to the axis.
+        // Before the rotation, the vector from the centre to the lowest point is along (0, −sine,
+        // −cosine), which is perpendicular to the axis.
         let axis = Vector([zero.clone(), cosine.clone(), -&sine]);
         let spoke = Vector([zero.clone(), -&sine, -&cosine]);
         let (axis, spoke) = (turn.of(&axis), turn.of(&spoke));

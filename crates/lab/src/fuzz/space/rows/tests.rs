@@ -1,6 +1,6 @@
-//! Tests that rows do no work in the motions that a joint allows, and that they exclude all other
-//! motions. The motions are listed joint by joint, as twists of the second body while the first
-//! body is at rest.
+//! Tests that rows do no work in the motions that a joint allows, and that the rows exclude all
+//! other motions. The motions are listed joint by joint, as twists of the second body while the
+//! first body is at rest.
 
 use super::super::drawing::GROUND;
 use super::super::ratio::{Ratio, whole_multiples};

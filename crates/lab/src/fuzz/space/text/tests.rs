@@ -85,7 +85,7 @@ fn unit(v: [f64; 3]) -> [f64; 3] {
     v.map(|x| x / length)
 }
 
-/// Returns points of the first and of the second body, in the ground.
+/// Returns the points of the first and of the second body, in the axes of the ground.
 fn points(joint: &Table, names: &[&str], frames: &BTreeMap<String, Frame>) -> Vec<[f64; 3]> {
     if let Some(at) = joint.get("at") {
         let list = at.as_array().expect("a list");
@@ -104,7 +104,7 @@ fn points(joint: &Table, names: &[&str], frames: &BTreeMap<String, Frame>) -> Ve
     names.iter().map(place).collect()
 }
 
-/// Returns directions of the first and of the second axis, in the ground, of length 1.
+/// Returns the unit vectors along the first and the second axis, in the axes of the ground.
 fn directions(joint: &Table, names: &[&str], frames: &BTreeMap<String, Frame>) -> Vec<[f64; 3]> {
     let is_global = joint.get("frame").is_some();
     let frame = &frames[if is_global { "ground" } else { names[0] }];
