@@ -1,11 +1,12 @@
 """Builds the wheel of the package and installs it into a separate environment.
 
-`python python/build.py` from the root, or from anywhere: the environment is `python/target/venv`,
-the wheel goes to `python/target/wheels`. `--quick` compiles faster, for tests: with little
-optimisation. Then the stubs of the private module are made of the compiled module, too, and compared
-with `package/pfaff/_pfaff.pyi`; `--write-stubs` writes them. `--portable` links for Linux systems with an older C
-library, glibc 2.28 and later; without it the wheel needs the glibc of this machine. Needs Python >=
-3.10 with venv and pip, cargo, and on the first run the network.
+The command `python python/build.py` works in any directory. The environment is
+`python/target/venv`, and the wheel is written to `python/target/wheels`. `--quick` compiles faster
+with little optimisation, for tests. It also generates the stubs of the private module from the
+compiled module and compares the stubs with `package/pfaff/_pfaff.pyi`. `--write-stubs` writes the
+stubs. `--portable` links for Linux systems with glibc 2.28 or later; without this option, the wheel
+needs the glibc of this machine. The program needs Python >= 3.10 with venv and pip, and cargo. The
+first run also needs the network.
 """
 
 from __future__ import annotations
@@ -37,7 +38,7 @@ def interpreter() -> Path:
 
 
 def run(*command: str | Path) -> None:
-    """Runs a command in this folder, shows it, and ends with its code if it fails."""
+    """Prints and runs a command in this folder; if the command fails, exits with its code."""
     words = [str(word) for word in command]
     print("+", " ".join(words), flush=True)
     done = subprocess.run(words, cwd=HERE, check=False)
@@ -80,10 +81,11 @@ def wheel(profile: str, extra: Sequence[str]) -> Path:
 
 
 def stubs(profile: str, write: bool) -> None:
-    """Compares the stubs of the private module with the compiled one, or writes them.
+    """Compares the stubs of the private module with the compiled module, or writes the stubs.
 
-    For a release the crate would be compiled again, because the stubs are read from symbols that
-    the wheel of a release does not contain. `test.py` compares stubs and module there, too.
+    For a release, the crate would have to be compiled again: the stubs are read from symbols that
+    the wheel of a release does not contain. For a release, `test.py` compares the stubs with the
+    module.
     """
     folder = TARGET / "stubs"
     shutil.rmtree(folder, ignore_errors=True)
@@ -111,7 +113,7 @@ def main() -> None:
         return
     profile = "quick" if arguments.quick or arguments.write_stubs else "release"
     if arguments.portable:
-        # Where maturin looks for Zig.
+        # Maturin searches for Zig in this directory.
         os.environ["PATH"] = os.pathsep.join((str(interpreter().parent), os.environ["PATH"]))
         requirements = ("--requirement", HERE / "requirements-release.txt")
         run(interpreter(), "-m", "pip", "install", "--quiet", *requirements)

@@ -1,10 +1,11 @@
 """Runs notebooks and compares their outputs with the stored outputs, or stores the new outputs.
 
-`python python/notebooks.py [NOTEBOOK …]` with the interpreter of the environment, for all of
-`python/notebooks` if none is named; `--write` stores the outputs. Cells are run as Jupyter runs
-them, one after the other in one namespace, with the last expression and the figures shown; there is
-no kernel between, which would be thirty packages more to install. Words have to be the same;
-pictures the same up to a few pixels, unless their cell is tagged `varies-by-machine`.
+The command is `python python/notebooks.py [NOTEBOOK …]` with the interpreter of the environment.
+Without an argument, it runs all notebooks in `python/notebooks`. `--write` stores the outputs.
+Cells are run in the same way as in Jupyter: one after the other in one namespace, and the last
+expression and the figures are shown. No kernel is used, because a kernel would require thirty
+further packages. Texts must be equal. Pictures may differ in a few pixels, and in any way if the
+cell has the tag `varies-by-machine`.
 """
 
 from __future__ import annotations
@@ -32,15 +33,15 @@ VARIES = "varies-by-machine"
 """The tag of cells whose pictures show run times, or errors as small as rounding."""
 
 COLOURS = 64
-"""Colours of a stored picture: enough for lines on white, and a third of the bytes."""
+"""Number of colours of a stored picture: enough for lines on white, with a third of the size."""
 
 DPI = 72
 
 DIFFERS = 0.15
-"""A pixel differs if a colour does by more than this share of its range: more than by rounding."""
+"""A pixel differs if a colour differs by more than this share of its range, beyond rounding."""
 
 PIXELS = 1e-3
-"""Share of the pixels of a picture that may differ; a line that moves changes more."""
+"""Share of the pixels of a picture that may differ; a displaced line changes a larger share."""
 
 
 def shown(value: Any) -> dict[str, Any]:
@@ -53,12 +54,12 @@ def shown(value: Any) -> dict[str, Any]:
 
 
 def lines(text: str) -> list[str]:
-    """A text as notebooks store it."""
+    """Returns a text in the form in which notebooks store texts."""
     return text.splitlines(keepends=True)
 
 
 def picture(figure: Any) -> str:
-    """A figure as PNG of few colours."""
+    """Returns a figure as a PNG with few colours."""
     from PIL import Image
 
     drawn = io.BytesIO()
@@ -70,14 +71,14 @@ def picture(figure: Any) -> str:
 
 
 class Cell:
-    """A cell that is run, and its outputs in the form of notebooks, in their order."""
+    """A cell that is run, with its outputs in the form of notebooks, in order of appearance."""
 
     def __init__(self) -> None:
         self.outputs: list[dict[str, Any]] = []
         self._printed = io.StringIO()
 
     def show(self, *_: object, **__: object) -> None:
-        """What `pyplot.show` does here, and the end of each cell: words so far, then all figures."""
+        """Stores the text so far, then all figures; for `pyplot.show` and the end of each cell."""
         self._words()
         for number in pyplot.get_fignums():
             figure = pyplot.figure(number)
@@ -93,7 +94,7 @@ class Cell:
             self._printed.truncate()
 
     def run(self, source: str, name: str, names: dict[str, Any], count: int) -> None:
-        """Runs the cell, and shows its last expression."""
+        """Runs the cell, and shows the value of the last expression."""
         tree = ast.parse(source, name)
         last = tree.body.pop() if tree.body and isinstance(tree.body[-1], ast.Expr) else None
         pyplot.show = self.show
@@ -126,7 +127,7 @@ def run(notebook: dict[str, Any], path: Path) -> None:
 
 
 def pixels(text: str) -> Any:
-    """A picture as an array of colours from 0 to 1."""
+    """Returns a picture as an array of colours from 0 to 1."""
     from PIL import Image
 
     with Image.open(io.BytesIO(base64.b64decode(text))) as image:
@@ -134,13 +135,13 @@ def pixels(text: str) -> Any:
 
 
 def without_picture(output: dict[str, Any]) -> dict[str, Any]:
-    """An output with the picture left out."""
+    """Returns an output without its picture."""
     data = output.get("data", {})
     return {**output, "data": {kind: x for kind, x in data.items() if kind != "image/png"}}
 
 
 def same_pictures(old: str, new: str) -> bool:
-    """Whether two pictures show the same."""
+    """Whether two pictures are equal up to a few pixels."""
     before, now = pixels(old), pixels(new)
     if before.shape != now.shape:
         return False
@@ -149,7 +150,7 @@ def same_pictures(old: str, new: str) -> bool:
 
 
 def differences(old: dict[str, Any], new: dict[str, Any]) -> list[str]:
-    """What is shown otherwise than it is stored, cell by cell."""
+    """Returns the differences between shown and stored outputs, cell by cell."""
     found = []
     for count, (before, now) in enumerate(zip(old["cells"], new["cells"], strict=True), 1):
         if before["cell_type"] != "code":
@@ -173,7 +174,7 @@ def differences(old: dict[str, Any], new: dict[str, Any]) -> list[str]:
 
 
 def written(notebook: dict[str, Any]) -> str:
-    """The text of a notebook."""
+    """Returns the text of a notebook."""
     return json.dumps(notebook, indent=1, ensure_ascii=False, sort_keys=True) + "\n"
 
 

@@ -1,7 +1,8 @@
 """Tests the package that `build.py` has installed: pytest with warnings as errors, mypy, stubtest.
 
-`python python/test.py`; what follows goes to pytest. If the command `pfaff` has been built by cargo,
-or `PFAFF_COMMAND` names it, answers are compared with its answers.
+The command is `python python/test.py`; further arguments are passed to pytest. If cargo has built
+the command `pfaff`, or `PFAFF_COMMAND` contains its path, the results are compared with the results
+of the command.
 """
 
 from __future__ import annotations
@@ -14,7 +15,7 @@ from build import HERE, interpreter, run
 
 
 def checked(*command: str) -> subprocess.CompletedProcess[str]:
-    """Statements of a module of the environment about the package."""
+    """Runs a module of the environment that checks the package."""
     words = [str(interpreter()), "-m", *command]
     return subprocess.run(words, cwd=HERE, check=False, capture_output=True, text=True)
 

@@ -1,9 +1,10 @@
 """Measures the installed package; writes one line for each number.
 
-`python/target/venv/bin/python python/benchmarks/measure.py [--command pfaff] [--rust loops]`: the
-command and the program of `loops.rs` are compared with if they are given. Each number is the least
-of several. Loops and runs are told in processor time, of all threads of a process, so that the
-machine need not be idle; imports and the first analysis in both.
+The command is `python/target/venv/bin/python python/benchmarks/measure.py [--command pfaff] [--rust
+loops]`. If the command and the program of `loops.rs` are given, the package is compared with both.
+Each number is the minimum of several measurements. Loops and runs are measured in processor time of
+all threads of a process, so the machine need not be idle. Imports and the first analysis are
+measured in processor time and in wall time.
 """
 
 from __future__ import annotations
@@ -31,7 +32,7 @@ def told(what: str, number: float, unit: str) -> None:
 
 
 def least(work: Callable[[], object], times: int = 5) -> float:
-    """Processor time (s) of this process for some work."""
+    """Returns the processor time (s) of this process for some work."""
     found = float("inf")
     for _ in range(times):
         begun = time.process_time()
@@ -41,7 +42,7 @@ def least(work: Callable[[], object], times: int = 5) -> float:
 
 
 def of_child(words: list[str | Path], times: int = 5) -> float:
-    """Processor time (s) of another program, from its start to its end."""
+    """Returns the processor time (s) of another program, from its start to its end."""
     found = float("inf")
     for _ in range(times):
         before = resource.getrusage(resource.RUSAGE_CHILDREN)
@@ -53,7 +54,7 @@ def of_child(words: list[str | Path], times: int = 5) -> float:
 
 
 def fresh(before: str, code: str) -> tuple[float, float]:
-    """Seconds and processor time of some code in a fresh interpreter."""
+    """Returns wall time and processor time (s) of some code in a new interpreter."""
     text = f"""
 import time
 {before}
@@ -80,7 +81,7 @@ T_END = 300.0
 
 
 def of_functions() -> None:
-    """What a call of a function adds to a run."""
+    """Measures the time that a call of a function adds to a run."""
     import pfaff
 
     scene = pfaff.Scene.from_string(WHEEL)
@@ -97,7 +98,7 @@ def of_functions() -> None:
         return (0.0, 0.0, 0.0 * body.angular_velocity)
 
     def run(**functions: Any) -> tuple[float, int, int]:
-        """Processor time, calls and evaluations of a run."""
+        """Returns processor time, number of calls and number of evaluations of a run."""
         nonlocal calls
         calls, evaluations = 0, 0
 
@@ -123,7 +124,7 @@ def of_functions() -> None:
 
 
 def main() -> None:
-    """All measurements."""
+    """Performs all measurements."""
     parser = argparse.ArgumentParser()
     parser.add_argument("--command", type=Path)
     parser.add_argument("--rust", type=Path)

@@ -52,8 +52,9 @@ impl Fault {
     }
 }
 
-/// Does short work, or work that calls Python repeatedly, on this thread and without the
-/// interpreter, so that other Python threads run. A panic becomes an exception.
+/// Does work on this thread without the interpreter, so that other Python threads can run. The
+/// function is for short work and for work that calls Python repeatedly. A panic becomes an
+/// exception.
 pub(crate) fn guarded<T: Send>(
     py: Python<'_>,
     work: impl FnOnce() -> Result<T, Fault> + Send,

@@ -25,8 +25,8 @@ impl Functions {
         self.drives.is_empty() && self.forces.is_empty()
     }
 
-    /// Adds the functions to a description. The functions are called until one has raised an
-    /// exception, which `hearing` stores.
+    /// Adds the functions to a description. The functions are called until a function raises an
+    /// exception. `hearing` stores this exception.
     pub(crate) fn put_into(
         self,
         description: &mut AnyDescription,
@@ -115,7 +115,7 @@ impl Call {
     }
 }
 
-/// Reads one number: a float, or a value that NumPy converts to one.
+/// Reads one number: a float, or a value that NumPy converts to a float.
 fn number(found: &Bound<'_, PyAny>) -> Result<f64, CallError> {
     if let Ok(found) = found.cast_exact::<PyFloat>() {
         return Ok(found.value());
@@ -156,7 +156,7 @@ fn wrench(space: SpaceKind, found: &Bound<'_, PyAny>) -> Result<Wrench, CallErro
     })
 }
 
-/// Describes a returned value that differs from the required one.
+/// Describes a returned value of a wrong type or size.
 fn other(found: &Bound<'_, PyAny>, needed: &str) -> CallError {
     let shape = found.getattr("shape").and_then(|shape| shape.str());
     let what = match (found.is_none(), shape, found.get_type().name()) {
@@ -168,8 +168,8 @@ fn other(found: &Bound<'_, PyAny>, needed: &str) -> CallError {
     format!("it returned {what}, need {needed}").into()
 }
 
-/// Returns the time, then position, rotation, velocity, angle and angular velocity of a body; in
-/// the plane these are vectors of the plane.
+/// Returns the time, then position, rotation, velocity, angle and angular velocity of a body. In
+/// the plane, vectors have two components.
 fn state<'py>(py: Python<'py>, space: SpaceKind, at: &BodyState) -> PyResult<Arguments> {
     let n = space.n_translations();
     let vector = |x: &[f64; 3]| PyArray1::from_slice(py, &x[..n]).into_any().unbind();

@@ -22,18 +22,19 @@ use crate::fault::{Fault, guarded, raised_by};
 /// Time (ms) between two checks for signals.
 const BETWEEN: u64 = 20;
 
-/// Time within which work has to end itself after Ctrl-C. Work that calls the check often needs
-/// less time, and has then closed its files. Other work is abandoned: its thread ends with the
-/// work, or with the process.
+/// Time within which work has to end after Ctrl-C. Work that calls the check often needs less time,
+/// and closes its files before it ends. Other work is abandoned: its thread ends when the work or
+/// the process ends.
 const PATIENCE: Duration = Duration::from_millis(500);
 
-/// Stack size (bytes) of a thread for work, equal to that of the main thread on Linux. Only the
-/// used part takes memory.
+/// Stack size (bytes) of a thread for work, equal to the stack size of the main thread on Linux.
+/// Only the used part of the stack needs memory.
 const STACK: usize = 8 << 20;
 
 /// Does work on a separate thread, without the interpreter, so that other Python threads run. The
-/// calling thread, on which alone Python receives signals, checks for signals until the work is
-/// done. A Python exception takes precedence over the result. A panic becomes an exception.
+/// calling thread checks for signals until the work is done, because Python receives signals only
+/// on this thread. A Python exception takes precedence over the result. A panic becomes an
+/// exception.
 pub(crate) fn heard<T: Send + 'static>(
     py: Python<'_>,
     work: impl FnOnce(&Arc<Hearing>) -> Result<T, Fault> + Send + 'static,
@@ -81,7 +82,7 @@ pub(crate) fn heard<T: Send + 'static>(
     }
 }
 
-/// Work for a thread. It calls the function when the thread can take more work.
+/// Work for a thread. The work calls its argument when the thread can accept further work.
 type Job = Box<dyn FnOnce(&dyn Fn()) + Send>;
 
 /// Threads that wait for work, with the process that started them: a forked process does not have
@@ -116,7 +117,7 @@ fn start(mut job: Job) -> io::Result<()> {
     Ok(())
 }
 
-/// Does work that calls Python functions on the calling thread, and that calls `ends` often. A
+/// Does work that calls Python functions, on the calling thread. The work must call `ends` often. A
 /// Python exception takes precedence over the result.
 pub(crate) fn heard_here<T: Send>(
     py: Python<'_>,
@@ -174,7 +175,7 @@ impl Hearing {
         self.ends.load(Ordering::Relaxed)
     }
 
-    /// Calls a callback; an exception ends the run, and so does a return value of `True`.
+    /// Calls a callback. An exception or the return value `True` ends the run.
     pub(crate) fn call(&self, call: impl FnOnce(Python<'_>) -> PyResult<Py<PyAny>>) {
         let asked = Python::attach(|py| call(py)?.bind(py).is_truthy());
         match asked {

@@ -1,6 +1,6 @@
 //! The private module `pfaff._pfaff` of the Python package `pfaff`: a binding that contains no
-//! mechanics and no texts. Answers are documents of the library as JSON, and arrays; the Python
-//! layer above gives them names.
+//! mechanics and no texts. Results are arrays, and documents of the library as JSON. The Python
+//! layer above this module adds names.
 //!
 //! | module | content |
 //! | --- | --- |

@@ -22,7 +22,7 @@ use crate::fault::{Fault, wrong};
 #[derive(FromPyObject, Clone, Default)]
 #[pyo3(from_item_all)]
 pub(crate) struct RunKeywords {
-    /// Options that replace those of the scene, as JSON.
+    /// Options that replace the options of the scene, as JSON.
     run: String,
     pub(crate) common: Common,
     pub(crate) output_step: Option<f64>,
@@ -32,7 +32,7 @@ pub(crate) struct RunKeywords {
     bounds: Option<BoundsKeywords>,
 }
 
-/// Which joints give way in bounds.
+/// The elastic joints of bounds.
 #[derive(FromPyObject, Clone)]
 #[pyo3(from_item_all)]
 struct BoundsKeywords {
@@ -64,7 +64,8 @@ impl RunKeywords {
         }
     }
 
-    /// Returns the requested bounds of a run, otherwise those of the scene.
+    /// Returns the requested bounds of a run. Without a request, returns the bounds that the scene
+    /// requests.
     pub(crate) fn elasticity(&self, study: &Study) -> Result<Option<Elasticity>, Fault> {
         let own = self.bounds.clone().map(|own| WantedBounds {
             rigid: own.rigid,
@@ -157,7 +158,7 @@ pub(crate) fn unknown(what: &str, name: &str, known: &[&str]) -> Fault {
     ))
 }
 
-/// Converts rows of the caller, which are counted from 1, to rows counted from 0.
+/// Converts row numbers that begin at 1 to row numbers that begin at 0.
 pub(crate) fn rows_from_zero(rows: Option<&[usize]>) -> Result<Option<Vec<usize>>, Fault> {
     let Some(rows) = rows else { return Ok(None) };
     let from_zero: Option<Vec<usize>> = rows.iter().map(|row| row.checked_sub(1)).collect();

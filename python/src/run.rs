@@ -41,7 +41,7 @@ pub(crate) struct RecordedTable {
 
 impl Recorded {
     /// Completes the values of the choices: determined components have the values of the run.
-    /// Values of the run that are not determined become NaN unless `are_told`.
+    /// Values of the run that are not determined become NaN, unless `are_told` is true.
     pub(crate) fn tell_determined(
         &mut self,
         columns: &[ReactionColumn],

@@ -89,7 +89,7 @@ impl Source {
         start
     }
 
-    /// Returns the scene with its start, read and assembled once.
+    /// Returns the scene with its start. The scene is read and assembled only once.
     fn judged(
         &self,
         (tolerance, budget): (Tolerance, Budget),
@@ -284,7 +284,8 @@ struct RunAsked {
     on_row: Option<Py<PyAny>>,
 }
 
-/// Memory for the rows of a run; a request for too much memory is rejected before the allocation.
+/// Limits of the memory for the rows of a run. A request for too much memory is rejected before the
+/// allocation.
 struct Room {
     /// Number of rows without the rows of events.
     expected: f64,
@@ -295,7 +296,7 @@ struct Room {
 }
 
 impl Room {
-    /// Reserves memory for all rows after the first one, and later for one row at a time.
+    /// Reserves memory for all rows after the first row, and later for one row at a time.
     fn make(&mut self, rows: &mut Recorded) {
         let count = rows.t.len();
         let fixed = [
@@ -777,7 +778,7 @@ impl Place for Files {
 }
 
 impl Files {
-    /// Writes all files into a directory, or no file if one fails.
+    /// Writes all files into a directory. If a file cannot be written, no file is written.
     fn write(&self, path: &Path, output: Option<Output>) -> Result<(), Refusal> {
         let Some(Output { family, .. }) = output else {
             return Ok(());
@@ -795,8 +796,8 @@ impl Files {
     }
 }
 
-/// Checks that the caller gives the required number of values; without values it returns those of
-/// the start.
+/// Checks that the caller gives the required number of values. Without values, returns the values
+/// at the start.
 fn numbers(
     name: &str,
     given: Option<Vec<f64>>,

@@ -41,7 +41,7 @@ impl From<SweepError> for Fault {
     }
 }
 
-/// Adds positions in the text to an error, if it is about the scene.
+/// Adds positions in the text to an error about the scene.
 fn refused(source: (&str, &str), error: SweepError) -> Fault {
     let error = match error {
         SweepError::Study(error) => return Refusal::of(source, error).into(),

@@ -10,8 +10,9 @@
 >>> door.analyze().verdicts["upper"].unique
 False
 
-A scene is an immutable text in the format of scene files: methods return new scenes. Results are
-those of the command ``pfaff``, in SI units and radians. See ``docs/book/python.md``.
+A scene is an immutable text in the format of scene files: methods return new scenes. The results
+are the same as the results of the command ``pfaff``, in SI units and radians. See
+``docs/book/python.md``.
 """
 
 from . import cluster

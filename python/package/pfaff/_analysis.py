@@ -32,23 +32,24 @@ class ComponentVerdict:
     verdict: str
     """``unique``, ``not_unique`` or ``undecided``."""
     margin: float
-    """Distance from being unique; only a rounding error if the component is unique."""
+    """Distance of the component from uniqueness; a rounding error if the component is unique."""
     within_tolerance: bool
     """Whether the component is unique only within the stated tolerance."""
     sensitivity: float | None = None
-    """Largest relative change by one point; ``None`` if it is not unique or not known."""
+    """Largest relative change if one point moves; ``None`` if not unique or not known."""
     fragile: bool = False
     """Whether the component is unique, but sensitive to the last digits of the data."""
     generic_verdict: str | None = None
-    """The verdict at the other configurations that were compared; ``None`` if none were reached.
+    """The verdict at other configurations; ``None`` if no other configuration was reached.
 
     Components in other frames, components of moments and components of sums have no such verdict.
     """
     permitted: tuple[float, float] | None = None
     """The lowest and the highest value that one-sided joints and grip permit (N, N·m).
 
-    The value is ``None`` for a unique component, in a scene without one-sided joints and grip, and
-    if the one-sided joints cannot all stay closed. An end without limit is infinite.
+    The value is ``None`` for a unique component. It is also ``None`` if the scene has neither
+    one-sided joints nor grip, and if the one-sided joints cannot all stay closed. An end without
+    limit is infinite.
     """
 
     @property
@@ -137,7 +138,7 @@ class Verdict:
 
     @property
     def margin(self) -> float:
-        """Distance from being unique; only a rounding error if the reaction is unique."""
+        """Distance of the reaction from uniqueness; a rounding error if the reaction is unique."""
         margin: float = self._entry["margin"]
         return margin
 
@@ -148,11 +149,11 @@ class Verdict:
 
     @property
     def directions(self) -> Array | None:
-        """A basis of the directions in which the reaction is unique, one in each row.
+        """A basis of the directions in which the reaction is unique; each row is one direction.
 
-        The columns are the components: in the plane those of the joint, in space all six. The array
-        has no row if no direction is unique. The value is ``None`` if the number of directions is
-        undecided.
+        The columns are the components: in the plane the components of the joint, in space all six
+        components. The array has no row if no direction is unique. The value is ``None`` if the
+        number of directions is undecided.
         """
         directions = self._entry["unique_directions"]
         if directions is None:
@@ -167,7 +168,7 @@ class Verdict:
         return fragile
 
     def explain(self) -> str:
-        """Explains why the reaction is not unique; empty if it is unique."""
+        """The reason why the reaction is not unique; empty if the reaction is unique."""
         words: str | None = self._entry.get("explanation")
         return words or ""
 
@@ -235,7 +236,7 @@ class GroupVerdict:
 
     @property
     def value(self) -> float:
-        """The value of a sum of components; NaN if it is not unique."""
+        """The value of a sum of components; NaN if the sum is not unique."""
         return self.values.get("sum", float("nan"))
 
 
@@ -310,7 +311,7 @@ class Analysis:
 
     @property
     def v(self) -> Array:
-        """Velocities; empty if no velocities are known that satisfy the constraints."""
+        """Velocities that satisfy the constraints; empty if such velocities are not known."""
         return self._state()[1]
 
     def _state(self) -> tuple[Array, Array]:
@@ -326,7 +327,10 @@ class Analysis:
         return warnings
 
     def combine(self, sum: str) -> GroupVerdict:
-        """Returns the verdict on a sum such as ``"W3.N + W4.N"``, or ``"W3 + W4"`` of wrenches."""
+        """Returns the verdict on a sum of components, or on a sum of wrenches.
+
+        Examples are ``"W3.N + W4.N"`` for components and ``"W3 + W4"`` for wrenches.
+        """
         found = self._again(combine=[arguments.text("sum", sum)])["groups"][-1]
         values = {value["name"]: _number(value["value"]) for value in found.get("values", [])}
         components = _components(found.get("components", []))
@@ -344,10 +348,10 @@ class Analysis:
         return _components(found[list(self.verdicts).index(verdict.name)]["moment"]["components"])
 
     def make_unique(self, name: str, allow: Allow = "sensible") -> dict[str, Any]:
-        """Returns the smallest deletions that make a reaction unique without change of motion.
+        """Returns the smallest deletions that make a reaction unique and do not change the motion.
 
         The result is the entry of ``pfaff analyze --make-unique --json``: ``ways`` with ``rows``
-        and ``text``, and the information whether they are ``complete``.
+        and ``text``, and ``complete``, which states whether all ways were found.
         """
         name = arguments.text("name", name)
         if not isinstance(allow, str):
@@ -369,16 +373,17 @@ class Analysis:
         """Returns the verdicts along the motion: ``along`` of ``pfaff analyze --along --json``.
 
         ``reactions`` contains, by name, the verdict over the motion on each joint and drive and on
-        its ``components``, with the intervals on which the component is ``determined`` if these are
-        only a part of the motion. ``special`` contains the instants with other verdicts, as in the
-        ``document`` of a run. ``passages`` contains the singular configurations.
+        its ``components``. If a component is determined only on a part of the motion,
+        ``determined`` contains the intervals. ``special`` contains the instants with other
+        verdicts, as in the ``document`` of a run. ``passages`` contains the singular
+        configurations.
         """
         end = arguments.maybe(arguments.finite, "t_end", t_end)
         found: dict[str, Any] = self._again(along="stated" if end is None else end)["along"]
         return found
 
     def explain(self) -> list[str]:
-        """Explains why reactions are not unique, with a sentence for each dependency of rows."""
+        """The reasons why reactions are not unique: one sentence for each dependency of rows."""
         return [dependency["text"] for dependency in self._own["dependencies"]]
 
     def reactions(
@@ -390,11 +395,11 @@ class Analysis:
     ) -> dict[str, dict[str, float]]:
         """Returns the values of the reactions by name and component.
 
-        Components that are not unique are NaN, unless a choice is given. A choice is
-        ``"minimum-norm"``, with the arm ``length`` (m) that converts torques to forces; rows to
-        delete (1-based); or compliances (m/N) of joints by name. With compliances, ``misfits`` are
-        displacements of the second body of a joint, or of the ground, along the axes of the scene
-        (m), and rotations (rad).
+        Components that are not unique are NaN, unless a choice is given. A choice is one of three
+        values: ``"minimum-norm"``, rows to delete (1-based), or compliances (m/N) of joints by
+        name. For the minimum norm, the arm ``length`` (m) converts torques to forces. With
+        compliances, ``misfits`` are displacements along the axes of the scene (m) and rotations
+        (rad). A displacement belongs to the second body of a joint, or to the ground.
         """
         length = arguments.maybe(arguments.number, "length", length)
         arm = "" if length is None else f":length={length!r}"

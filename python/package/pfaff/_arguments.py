@@ -1,4 +1,4 @@
-"""Checks of arguments: each returns the argument, or raises an exception that names it.
+"""Checks of arguments. A check returns the argument, or raises an exception with its name.
 
 The text of the exception also contains the given value and the required type.
 """

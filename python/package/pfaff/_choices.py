@@ -59,15 +59,15 @@ def _misfit(name: str, given: Any) -> str:
 
 
 Bounds = Mapping[str, Any]
-"""Which joints give way in bounds: the keys ``rigid``, ``within`` and ``compliance``.
+"""The elastic joints of bounds: the keys ``rigid``, ``within`` and ``compliance``.
 
-``rigid`` lists joints and drives that do not give way, ``within`` is the largest ratio of
-compliances to the nominal ones, and ``compliance`` contains nominal compliances by name.
+``rigid`` lists rigid joints and drives. ``within`` is the largest ratio of compliances to nominal
+compliances. ``compliance`` contains nominal compliances by name.
 """
 
 
 def as_bounds(name: str, bounds: bool | Bounds) -> dict[str, Any] | None:
-    """Returns the request for bounds of a run; ``None`` if the scene decides."""
+    """Returns the request for bounds of a run; ``None`` means the request in the scene."""
     if isinstance(bounds, (bool, np.bool_)):
         return {"rigid": [], "within": None, "compliance": None} if bounds else None
     if not isinstance(bounds, Mapping):
@@ -91,7 +91,7 @@ def _soft(name: str, given: Any) -> Mapping[str, Any]:
 
 
 def of_run(choose: Choice | Sequence[Choice] | None) -> tuple[bool, list[str]]:
-    """Whether the values are those for the independent rows of a run, and the other choices."""
+    """Whether values for the independent rows of a run are requested, and the other choices."""
     if choose is None:
         return False, []
     if is_rows(choose) or (isinstance(choose, str) and choose == "kept-rows"):

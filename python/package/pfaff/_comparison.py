@@ -31,7 +31,7 @@ class Curve(NamedTuple):
 
 
 class WorkPrecision:
-    """One scene with every method at many tolerances."""
+    """The runs of one scene with every method at many tolerances."""
 
     def __init__(self, answer: Answer) -> None:
         self.document = answer.document

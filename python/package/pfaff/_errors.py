@@ -110,7 +110,7 @@ def wrong_type(name: str, given: object, needed: str) -> ArgumentError:
 
 
 def unknown(what: str, name: str, known: Iterable[str]) -> InputError:
-    """Builds the exception for an unknown name, with all names and the most similar one."""
+    """Builds the exception for an unknown name, with all names and the most similar name."""
     names = list(known)
     near = nearest(str(name), names)
     advice = f"; did you mean `{near}`?" if near else ""

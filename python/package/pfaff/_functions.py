@@ -36,8 +36,8 @@ class BodyState(NamedTuple):
 BodyForce = Callable[[float, BodyState], ArrayLike]
 """Force (N) and torque (N·m) on a body, as a function of time (s) and of its state.
 
-The function returns ``[fx, fy, torque]`` in the plane and ``[fx, fy, fz, tx, ty, tz]`` in space:
-the force, which acts at the centre of mass, and the torque, in ground axes.
+The function returns ``[fx, fy, torque]`` in the plane and ``[fx, fy, fz, tx, ty, tz]`` in space.
+The components are in ground axes, and the force acts at the centre of mass.
 """
 
 Named = list[tuple[str, Callable[..., Any]]]

@@ -36,7 +36,7 @@ class Linearisation:
 
     @property
     def eigenvalues(self) -> NDArray[np.complex128]:
-        """Eigenvalues (1/s), the fastest growing first; a conjugate pair is listed once."""
+        """Eigenvalues (1/s) by decreasing growth rate; a conjugate pair is listed once."""
         modes = self.document["modes"] or []
         return np.array([complex(m["real"], m["imaginary"]) for m in modes], dtype=np.complex128)
 

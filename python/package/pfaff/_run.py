@@ -116,7 +116,10 @@ class BodyMotion(_Columns):
 
     @property
     def angular_acceleration(self) -> Array:
-        """Angular accelerations (rad/s²), as for velocities; needs ``accelerations = true``."""
+        """Angular accelerations (rad/s²), in columns like the angular velocities.
+
+        The table ``[output]`` needs ``accelerations = true``.
+        """
         return self["alpha"] if "alpha" in self._numbers else self._of(("alphax", "alphay", "alphaz"))
 
 
@@ -130,7 +133,7 @@ class Reaction(_Columns):
 
     @property
     def force(self) -> Array:
-        """Forces (N), 2 or 3 columns; NaN if not determined in the interval between two events."""
+        """Forces (N), 2 or 3 columns; NaN between two events if the force is not determined."""
         return self._of(("Fx", "Fy", "Fz"))
 
     @property
@@ -315,7 +318,7 @@ class Run:
         """Returns a joint coordinate, or the force or torque (N, N·m) of a drive law.
 
         With ``accelerations = true`` in ``[output]``, ``number`` may be ``"rate"`` or
-        ``"acceleration"``, the derivatives of a measure.
+        ``"acceleration"``. These numbers are the derivatives of a measure.
         """
         of = _named("measure", name, self._others)
         return of[number or of.columns[0]]
@@ -340,9 +343,9 @@ class Run:
     def report(self, path: str | os.PathLike[str]) -> None:
         """Writes the page of this run for any browser.
 
-        The run is repeated with additional rows for the animation. It ends at the same time, also
-        if it stopped or a callback ended it. The functions of its drives and bodies are called
-        again.
+        The run is repeated with additional rows for the animation. The repeated run ends at the
+        same time, even if the run stopped or a callback ended it. The functions of drives and
+        bodies are called again.
         """
         stopped = self.document["code"] not in (None, INTERRUPTED)
         until = float(self.t[-1]) if self.partial and not stopped else None
@@ -362,7 +365,7 @@ class Run:
         return pandas.DataFrame(table, index=index, columns=columns)
 
     def to_polars(self) -> Any:
-        """Returns all columns as a ``polars.DataFrame``, the first of which is ``t``."""
+        """Returns all columns as a ``polars.DataFrame``; the first column is ``t``."""
         import polars
 
         table = np.column_stack((self.t, self.trajectory, self.reactions, self.loads))
@@ -372,7 +375,7 @@ class Run:
     def plot(self, *columns: str, ax: Any = None) -> Any:
         """Plots columns against time, by their names in the tables; returns the axes.
 
-        By default it plots the positions of all bodies. This method needs matplotlib.
+        By default, the positions of all bodies are plotted. This method needs matplotlib.
         """
         wanted: Iterable[str] = columns or [
             heading for heading in self.columns if heading.endswith((".x", ".y", ".z"))

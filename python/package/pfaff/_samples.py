@@ -19,7 +19,7 @@ Values = NDArray[Any]
 
 
 class Samples:
-    """Samples of a scene whose data vary within their tolerances."""
+    """Samples of a scene; the data of each sample vary within their tolerances."""
 
     def __init__(self, answer: Answer) -> None:
         self.scene = answer.scene
@@ -96,7 +96,7 @@ class Samples:
 
 
 def _values(column: tuple[str, ...]) -> Values:
-    """Returns values as numbers, or as texts if one of them is not a number."""
+    """Returns values as numbers, or as texts if a value is not a number."""
     try:
         return np.array([float(cell) for cell in column], dtype=np.float64)
     except ValueError:

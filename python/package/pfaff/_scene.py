@@ -237,7 +237,7 @@ class Scene(Questions):
         return self.add("group", name=name, **keys)
 
     def parameters(self, **values: Any) -> Scene:
-        """Returns the scene with parameters, which expressions use (``format=2``)."""
+        """Returns the scene with parameters for its expressions (``format=2``)."""
         return self.set("parameters", **values)
 
     def with_(self, **settings: Any) -> Scene:
@@ -281,28 +281,28 @@ class Scene(Questions):
     ) -> Run:
         """Runs the scene; an option that is ``None`` has the value in the scene.
 
-        ``reactions`` are all, none, or those with these names. Values that are not unique in the
-        interval between two events are NaN, unless ``choose`` gives a choice: ``"kept-rows"`` for
-        the independent rows of the run, a list of rows to delete (1-based), or a choice of
-        :meth:`Analysis.reactions`. The latter is ``"minimum-norm"``, ``"minimum-norm:length=0.5"``
-        (m), or compliances by name, such as ``{"left": 1e-6, "right": (2e-6, 1e-3)}`` (m/N, and
-        rad/(N·m)). With a list of these choices ``run.choices`` contains the values for each
-        choice, and NaN remains in ``run.reactions``.
+        ``reactions`` selects all reactions, no reaction, or the reactions with these names. Values
+        that are not unique in the interval between two events are NaN, unless ``choose`` gives a
+        choice: ``"kept-rows"`` for the independent rows of the run, a list of rows to delete
+        (1-based), or a choice of :meth:`Analysis.reactions`. Such a choice is ``"minimum-norm"``,
+        ``"minimum-norm:length=0.5"`` (m), or compliances by name, such as ``{"left": 1e-6, "right":
+        (2e-6, 1e-3)}`` (m/N, and rad/(N·m)). With a list of these choices ``run.choices`` contains
+        the values for each choice, and NaN remains in ``run.reactions``.
 
         With ``bounds`` the attributes ``run.lowest`` and ``run.highest`` contain the bounds of all
         reactions for joints of any stiffness. A dictionary with the keys ``rigid``, ``within`` and
-        ``compliance`` states which joints give way.
+        ``compliance`` selects the elastic joints.
 
-        ``on_event`` receives each :class:`Event` at the first row after it, and ``on_row`` receives
-        the time of each row. The run ends if one of them returns ``True``. Ctrl-C works only on the
-        main thread.
+        ``on_event`` receives each :class:`Event` at the first row after the event, and ``on_row``
+        receives the time of each row. The run ends if one of the two functions returns ``True``.
+        Ctrl-C works only on the main thread.
 
-        ``drives`` are functions ``f(t, measure, rate)`` that replace the laws of these drives: they
-        return the force (N) or torque (N·m). ``forces`` are functions ``f(t, body)`` of a
-        :class:`BodyState`: they return force and torque on this body. Functions are called at
-        stages of steps, not in the order of time, and must return the same value for the same
-        state. Methods that need derivatives reject them. An exception in a function ends the run
-        and is raised.
+        ``drives`` are functions ``f(t, measure, rate)`` that replace the laws of these drives.
+        These functions return the force (N) or torque (N·m). ``forces`` are functions ``f(t,
+        body)`` of a :class:`BodyState`. These functions return force and torque on this body.
+        Functions are called at stages of steps, not in the order of time, and must return the same
+        value for the same state. Methods that need derivatives reject them. An exception in a
+        function ends the run and is raised.
         """
         options = _options(
             t_end=t_end,
@@ -340,7 +340,7 @@ class Scene(Questions):
     def simulate_into(self, directory: str | os.PathLike[str], **options: Any) -> dict[str, Any]:
         """Runs the scene and writes the files of ``pfaff simulate`` into a directory.
 
-        Returns the summary. The options are those of :meth:`simulate` except ``on_event`` and
+        Returns the summary. The options are the options of :meth:`simulate` except ``on_event`` and
         ``on_row``.
         """
         _choose(options)
@@ -359,7 +359,7 @@ class Scene(Questions):
         return document
 
     def report(self, path: str | os.PathLike[str], **options: Any) -> None:
-        """Runs the scene and writes its page for any browser, also for a run that stops."""
+        """Runs the scene and writes its page for any browser, even if the run stops."""
         _choose(options)
         _known(options)
         self._page(path, options, None)
@@ -427,7 +427,7 @@ class Scene(Questions):
         *,
         max_memory: int | str | None = None,
     ) -> Matrices:
-        """Returns C, M, Γ, Q, b and Φ at coordinates and velocities, by default those of the start.
+        """Returns C, M, Γ, Q, b and Φ at coordinates and velocities, by default at the start.
 
         C and M are dense: matrices that need more than ``max_memory`` are rejected.
         """

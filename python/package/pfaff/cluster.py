@@ -43,7 +43,7 @@ Vary = Mapping[str, Any] | str | Sequence[str]
 """Keys with their values, or texts in the syntax of ``pfaff sweep --vary``."""
 
 SHARD_SECONDS = 20.0
-"""Target time (s) of a shard. Small values need many files; with large values workers wait."""
+"""Target time (s) of a shard. Small values cause many files; large values cause idle workers."""
 
 SHARD_SECONDS_LEAST = 2.0
 """Smallest target time of a shard if there are few shards."""
@@ -85,7 +85,7 @@ class Done(NamedTuple):
     k: int
     """Index of the part."""
     made: int
-    """Number of runs that were performed; the others were finished before."""
+    """Number of runs that were performed; the other runs were finished before."""
     tables: bool
     """Whether this was the last shard, which writes the tables."""
     summary: dict[str, Any]
@@ -93,7 +93,7 @@ class Done(NamedTuple):
 
 
 def make_shard(shard: Shard) -> Done:
-    """Performs the unfinished runs of a shard; the task of all engines."""
+    """Performs the unfinished runs of a shard. All engines perform this task."""
     done = _made(shard, None, _stop_of_worker())
     if done.summary["partial"]:
         raise RuntimeError(f"the worker ends, and shard {shard.k} of {shard.n} is not finished")
@@ -118,7 +118,7 @@ _sweep_of = functools.lru_cache(maxsize=2)(_read)
 
 
 def _tried(shard: Shard) -> float:
-    """Estimates the time of one run (s) from a few trial runs; a task of engines."""
+    """Estimates the time of one run (s) from a few trial runs. Engines perform this task."""
     of = _sweep_of(shard.name, shard.text, shard.vary, shard.keep_rows)
     runs = of.runs
     most = min(PROBES, runs)
@@ -130,7 +130,7 @@ def _tried(shard: Shard) -> float:
         spent.append(of.seconds(run))
         if sum(spent) > PROBE_SECONDS:
             break
-    # The first run is slower because of the initialisation.
+    # The first run takes longer because of the initialisation.
     usual = spent[1:] or spent
     return sum(usual) / len(usual)
 
@@ -138,7 +138,7 @@ def _tried(shard: Shard) -> float:
 def _stop_of_worker() -> Callable[[], bool] | None:
     """Whether the worker of Dask that executes this call is about to end.
 
-    If the shard then ends properly, none of its runs counts as the cause of the end.
+    If the shard then ends properly, no run of the shard counts as the cause of the end.
     """
     distributed = sys.modules.get("distributed")
     if distributed is None:
@@ -157,9 +157,9 @@ class SweepResult:
         self, directory: str | None, made: int, summary: str, columns: list[tuple[str, Any]]
     ) -> None:
         self.directory = directory
-        """The directory; ``None`` if it was a temporary one."""
+        """The directory; ``None`` if the directory was temporary."""
         self.made = made
-        """Number of runs that this call performed; the others were finished before."""
+        """Number of runs that this call performed; the other runs were finished before."""
         self.document: dict[str, Any] = json.loads(summary)
         """The summary, as in ``summary.json``."""
         self.table: dict[str, NDArray[Any]] = {name: _column(values) for name, values in columns}
@@ -227,27 +227,30 @@ def sweep(
 ) -> SweepResult:
     """Runs a scene with every combination of values.
 
-    ``vary`` contains for each key a list of values, numbers or texts with units, or a text such as
-    ``"5:20:1000"``; or it is the text, or the list of texts, of ``pfaff sweep --vary``.
+    ``vary`` contains for each key a list of values or a text such as ``"5:20:1000"``. Values are
+    numbers, or texts with units. Alternatively, ``vary`` is a text, or a list of texts, in the
+    syntax of ``pfaff sweep --vary``.
 
-    ``client`` performs the shards: a client of Dask, the module ``ray`` or its name, a
-    ``joblib.Parallel``, an executor of ``concurrent.futures``, or this process if it is ``None``.
-    ``out`` is a directory that all its workers see; it is optional without a client. The same call
-    in the same directory resumes a sweep, and only reads a finished one.
+    ``client`` performs the shards. It is a client of Dask, the module ``ray`` or its name, a
+    ``joblib.Parallel``, or an executor of ``concurrent.futures``. With ``None``, this process
+    performs the shards. ``out`` is a directory that all workers can access; without a client, it is
+    optional. The same call in the same directory resumes a sweep. If the sweep is finished, the
+    call only reads the results.
 
-    ``shards`` is the number of parts. The default is the number in an existing directory. For a
-    new directory, it is chosen from a few trial runs of a worker, so that each part takes some tens
-    of seconds. ``threads`` are the threads of one shard: one by default, and all cores without a
-    client. The engine repeats lost work up to ``retries`` times, and so does this function.
+    ``shards`` is the number of parts. The default is the number in an existing directory. For a new
+    directory, the number follows from a few trial runs of a worker, so that each part takes some
+    tens of seconds. ``threads`` is the number of threads for one shard. The default is one, or all
+    cores without a client. Both the engine and this function repeat lost work up to ``retries``
+    times.
 
-    A run that has ended its process twice has a row ``crashed``, which is final. With
-    ``retry_crashed`` such runs are repeated as new runs: for instance after a worker was killed
-    because its machine had too little memory. No other process may work in the directory at the
-    beginning of such a call.
+    If a run has ended its process twice, its row is ``crashed``, and this row is final. With
+    ``retry_crashed`` such runs are repeated as new runs. This is useful, for instance, after a
+    worker was killed because its machine had too little memory. At the beginning of such a call, no
+    other process may work in the directory.
 
-    ``on_progress`` receives the numbers of finished runs and of all runs; the sweep ends if it
-    returns ``True``. ``progress`` shows a progress line; by default it does so if standard error is
-    a terminal.
+    ``on_progress`` receives the numbers of finished runs and of all runs; the sweep ends if this
+    function returns ``True``. ``progress`` shows a progress line. The default is to show the line
+    if standard error is a terminal.
     """
     texts = tuple(_texts(vary))
     keep_rows = arguments.flag("keep_rows", keep_rows)
@@ -315,7 +318,7 @@ def _make_by(
         if told.now(finished):
             return made
     if not has_tables:
-        # All shards were finished before, or the last worker could not see that they were.
+        # All shards were finished before, or the last worker could not see the files of all shards.
         _pfaff.merge([part.out], part.out)
     return made
 
@@ -333,7 +336,7 @@ def _number(engine: _Engine, part: Shard, runs: int) -> int:
     except Exception as error:
         if not _is_lost(error):
             raise
-        # A run ends its worker: the shards identify this run and continue without it.
+        # A run ends its worker. The shards identify this run and continue without the run.
         total = SHARD_SECONDS
     else:
         total = runs * seconds
@@ -410,7 +413,7 @@ class _Engine:
         self.client = client
 
     def workers(self, threads: int) -> int:
-        """Returns how many shards are performed at the same time."""
+        """Returns the number of shards that are performed at the same time."""
         raise NotImplementedError
 
     def run(self, task: Task[T], shards: list[Shard], retries: int) -> Iterator[T]:
@@ -419,7 +422,7 @@ class _Engine:
 
 
 def _is_lost(error: BaseException) -> bool:
-    """Whether the workers of a task are lost, rather than the task invalid."""
+    """Whether an error means that workers were lost, and not that the task is invalid."""
     return type(error).__name__ in ("KilledWorker", "WorkerCrashedError", "TerminatedWorkerError")
 
 
