@@ -32,7 +32,7 @@
 //! | [`mod@examine`] | comparison of the answer of the program with exact arithmetic |
 //! | [`lifted`] | planar scenes converted to space |
 //! | [`graph`] | cycles of the joints that keep bodies in the plane |
-//! | [`permanence`] | whether a redundancy exists at all configurations or only at the drawn configuration |
+//! | [`permanence`] | whether a redundancy exists at all configurations of the mechanism |
 //! | [`within`] | comparison of the answers for scenes with few digits |
 
 pub mod catalogue;
