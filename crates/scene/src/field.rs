@@ -142,7 +142,8 @@ impl<'t> Field<'t> {
         self.number_expected("a number", of)
     }
 
-    /// Reads a finite number of this dimension; `expected` is a more detailed description of it.
+    /// Reads a finite number of this dimension; `expected` is a more detailed description of the
+    /// number.
     pub(crate) fn number_expected(&self, expected: &str, of: Dimension) -> Option<f64> {
         let number = self.judged_later(expected, of)?;
         warn_of_degrees(slice::from_ref(self), &[number]);

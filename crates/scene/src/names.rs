@@ -1,5 +1,5 @@
 //! Names of items. There are three name spaces: bodies, markers and measures; joints, drives and
-//! forces; and groups. In each of them, a name may occur only once.
+//! forces; and groups. In each name space, a name may occur only once.
 
 use std::collections::{BTreeMap, BTreeSet, HashSet};
 use std::ops::Range;

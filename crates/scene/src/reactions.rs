@@ -124,7 +124,7 @@ impl OutputUnits {
 pub struct WantedBounds {
     /// Joints and drives that count as rigid.
     pub rigid: Vec<String>,
-    /// The largest ratio of compliances to the nominal ones.
+    /// The largest ratio of a compliance to its nominal value.
     pub within: Option<f64>,
     /// Nominal compliances as text, such as `A=1e-6, B=2e-6`.
     pub compliance: Option<String>,

@@ -177,7 +177,7 @@ fn check_length(options: &MotionOptions, step: &Field, end: &Field) {
     step.findings.report(too_small);
 }
 
-/// Reads a number within its bounds; the error messages are those of `dynamics`.
+/// Reads a number within its bounds; the error messages are the messages of `dynamics`.
 fn bounded(field: &Field, key: &Key) -> Option<f64> {
     let value = field.number(key.unit)?;
     if key.allows(value) {
