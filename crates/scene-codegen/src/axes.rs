@@ -162,7 +162,7 @@ impl Axes {
         turned
     }
 
-    /// Returns sets of three velocity components, each with its rotation.
+    /// Returns sets of three velocity components, with the rotation of each set.
     fn blocks(&self, columns: usize) -> Vec<([usize; 3], Matrix)> {
         let space = SpaceKind::Space3;
         let bodies = 0..columns / space.n_v();

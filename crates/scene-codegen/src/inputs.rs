@@ -241,7 +241,7 @@ impl<'s> Search<'s> {
         self.keys.iter().map(|key| key.name.clone()).collect()
     }
 
-    /// Returns the values that differ, each with the keys that change it.
+    /// Returns the values that differ. Each value has the keys that change this value.
     fn inputs(
         &self,
         described: &RecordedEquations,

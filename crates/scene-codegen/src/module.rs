@@ -342,7 +342,7 @@ fn shared(shape: &Shape, jets: &str) -> Result<TokenStream, CodeError> {
         /// The smaller one; NaN if one is.
         #[inline(always)]
         fn least(a: f64, b: f64) -> f64 { if b < a || b.is_nan() { b } else { a } }
-        /// Functions of time, each with two derivatives.
+        /// Functions of time, with two derivatives of each function.
         #[inline]
         fn jets(t: f64 #numbers) -> [f64; #n_jets] { #jets }
         #[doc = #doc]

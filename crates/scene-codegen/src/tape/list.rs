@@ -18,7 +18,7 @@ use crate::equations::Source;
 /// Index of a storage place. An index cannot exceed [`PLACES`], so indices are not checked.
 pub(super) type Place = u16;
 
-/// Number of storage places; a list uses the first of them.
+/// Number of storage places. A list uses the first places.
 pub(super) const PLACES: usize = 1 << 16;
 
 /// Operands and result of `c ± a·b`. The expression is rounded after the product and after the sum.
@@ -81,8 +81,8 @@ impl List {
     pub(super) fn new(program: &Program, sources: &[Source], n_out: usize) -> Option<Self> {
         let mut made = Maker::new(program)?;
         let mut list = Self::default();
-        // Inputs and constants are set before the first step, so each of them needs a separate
-        // storage place.
+        // Inputs and constants are set before the first step, so each input and each constant needs
+        // a separate storage place.
         for (k, op) in program.ops().iter().enumerate() {
             match op {
                 Op::Input(s) => {
