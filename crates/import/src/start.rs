@@ -242,7 +242,7 @@ fn close(
     }
 }
 
-/// Reports the coordinates whose values differ from the requested ones.
+/// Reports the coordinates whose values differ from the requested values.
 fn tell_moved(model: &Model, asked: &[RequestedValue], findings: &mut Findings) {
     let mut moved = Vec::new();
     for one in asked {

@@ -56,7 +56,7 @@ impl<'a> Element<'a> {
         self.source.line(self.node.range().start)
     }
 
-    /// The child elements, except those of other name spaces.
+    /// The child elements, except elements of other name spaces.
     pub(crate) fn children(&self) -> impl Iterator<Item = Self> + use<'a> {
         self.all_children().filter(|child| child.prefix().is_none())
     }
