@@ -215,7 +215,7 @@ impl DrawingModel {
 
 /// A mechanism with the frames of its bodies.
 pub struct Stage<'a> {
-    /// The mechanism, or the part of it that is drawn.
+    /// The mechanism, or the drawn part of the mechanism.
     pub mechanism: &'a Mechanism,
     /// For each drawn body, its index in the list of all bodies.
     pub bodies: &'a [usize],
@@ -263,7 +263,7 @@ impl Stage<'_> {
         drawing
     }
 
-    /// Outlines of the bodies, each in the frame of its body.
+    /// Outlines of the bodies. Each outline is in the frame of its body.
     fn outlines(&self, forces: &[DrawnForce]) -> Vec<Vec<Point>> {
         let space = self.mechanism.space();
         let mut points = vec![vec![[0.0; 3]]; self.bodies.len()];
