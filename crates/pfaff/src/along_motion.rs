@@ -39,7 +39,7 @@ const MANY: usize = 10_000;
 const REACH: f64 = 0.1;
 
 /// Length of the extrapolation of a motion that stopped. It is a multiple of the time between the
-/// last row and the end of the motion, or of the time between rows if the latter is longer.
+/// last row and the end of the motion, or of the time between two rows if this time is longer.
 const BEYOND: f64 = 8.0;
 
 /// Largest number of analysed states.

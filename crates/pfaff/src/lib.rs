@@ -16,7 +16,7 @@
 //! | [`assembled`] | a scene with its mechanism |
 //! | [`study`] | the consistent start, the motion and the files of a scene |
 //! | `report_builder`, `comparison` | the report, and several choices for reactions that are not unique |
-//! | [`run_options`] | options of a run that replace those of the scene |
+//! | [`run_options`] | options of a run that replace options of the scene |
 //! | [`choice`] | choices of reactions that are not unique, in the syntax of the command |
 //! | [`configuration`] | one configuration, and the results for its reactions |
 //! | [`along_motion`] | the verdicts along a motion |

@@ -132,7 +132,7 @@ impl Study {
     /// messages.
     ///
     /// # Errors
-    /// - [`StudyError::Scene`]: all errors of the text, including those of the start.
+    /// - [`StudyError::Scene`]: all errors of the text, including errors of the start.
     /// - [`StudyError::Motion`]: the start exists, but no rows can be chosen.
     pub fn read(
         name: &str,

@@ -100,8 +100,9 @@ fn most(threads: Option<NonZeroUsize>) -> usize {
     threads.map_or(cores, NonZeroUsize::get).min(MOST_THREADS)
 }
 
-/// Starts threads that wait for their work, so that either all threads of a pool exist or none of
-/// them. An incomplete pool cannot be started again. The threads end if they receive no work.
+/// Starts threads that wait for their work, so that either all threads of a pool exist or no thread
+/// of the pool exists. An incomplete pool cannot be started again. The threads end if they receive
+/// no work.
 fn waiting(number: usize) -> io::Result<Vec<Sender<ThreadBuilder>>> {
     let mut threads = Vec::with_capacity(number);
     for _ in 0..number {

@@ -8,7 +8,7 @@ use report::figures::drawing::Stage;
 /// Largest number of joints and drives, and of bodies, that are drawn and plotted.
 pub(super) const DRAWN_MAX: usize = 1200;
 
-/// A mechanism, or the part of it that is drawn.
+/// A mechanism, or the drawn part of a mechanism.
 pub(super) struct Cast {
     part: Option<model::Part>,
     bodies: Vec<usize>,

@@ -205,7 +205,7 @@ fn lines<'p>(page: &'p RunPage<'p>) -> Vec<PeakLine<'p>> {
                 holds: "every choice (unique reaction)".to_owned(),
             };
         }
-        // Determined components, each on its own intervals.
+        // Determined components. Each component has its own intervals.
         let determined = document.components.0.iter().filter_map(|(name, number)| {
             let peak = determined_peak(number.peak.as_ref()?, noise)?;
             Some((Some(name.as_str()), layout.load_unit(id, name), peak))

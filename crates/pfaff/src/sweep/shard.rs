@@ -87,8 +87,8 @@ impl Shard {
         (least..=most).find(|n| parts.iter().all(|part| is_part(*n, part)))
     }
 
-    /// Returns those of n parts that consist of these runs. Returns `None` if the runs begin or end
-    /// inside a part.
+    /// Of n parts, returns the parts that consist of these runs. Returns `None` if the runs begin
+    /// or end inside a part.
     #[must_use]
     pub fn of(runs: Runs, all: u64, n: u64) -> Option<Vec<Self>> {
         let at = |run: u64| (u128::from(run) * u128::from(n)).div_ceil(u128::from(all)) as u64;

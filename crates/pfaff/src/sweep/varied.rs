@@ -151,8 +151,8 @@ impl<'r> Sweep<'r> {
     }
 
     /// Describes, as text, how the equations of the runs are evaluated: by code that is generated
-    /// for all runs without a compiler, or by the interpreter. In the latter case, the text
-    /// contains the reason.
+    /// for all runs without a compiler, or by the interpreter. If the interpreter evaluates the
+    /// runs, the text contains the reason.
     ///
     /// ```
     /// use pfaff::model::Registry;

@@ -8,8 +8,8 @@
 //! independent, the mechanism has fewer free motions, and the data alone determine the numbers that
 //! were not unique.
 //!
-//! Assembly is not damped, because nearly dependent rows are the important ones. The rank of all
-//! rows is decided at the assembled pose with exact numbers, as for a plain matrix.
+//! Assembly is not damped, because nearly dependent rows are important here. The rank of all rows
+//! is decided at the assembled pose with exact numbers, as for a plain matrix.
 
 use linalg::kernels::max_abs;
 use linalg::{KeptRowSaddle, Matrix};

@@ -147,7 +147,7 @@ fn moved(motion: &DiffMotion) -> Vec<Block> {
     blocks
 }
 
-/// Lists the loads whose peaks differ. The largest change comes first.
+/// Lists the loads with different peaks. The largest change comes first.
 fn loaded(motion: &DiffMotion, files: [&str; 2]) -> Vec<Block> {
     let mut changed: Vec<&DiffLoad> = motion.loads.iter().collect();
     let all = changed.len();

@@ -23,7 +23,7 @@ const PERIODS: usize = 8;
 /// angle (rad).
 const AMPLITUDE: f64 = 0.15;
 
-/// Returns the pages of the modes that have a page, each with the index of the mode (0-based).
+/// Returns the pages of modes, with the index of each mode (0-based). Some modes have no page.
 pub(super) fn all(
     study: &Study,
     found: &Linearisation,
