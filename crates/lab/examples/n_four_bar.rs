@@ -21,7 +21,7 @@ const STEPS: u32 = 2_000_000;
 const RUNS: u32 = 16;
 const SPREAD: f64 = 0.15;
 
-/// Tolerances that are tried, loose ones first, until all runs have this error (m).
+/// Tolerances that are tried until all runs have this error (m). Loose tolerances are tried first.
 const TOLERANCES: [f64; 5] = [1e-6, 5e-7, 2.5e-7, 1e-7, 1e-8];
 const ERROR: f64 = 1e-5;
 

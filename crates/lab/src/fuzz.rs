@@ -1,6 +1,6 @@
-//! Tests random and damaged scenes, each with check, analyze and a short simulate. For any text,
-//! the required result is a consistent answer or an error with a message. A panic, an endless loop,
-//! growing memory, or contradicting values are failures.
+//! Tests random and damaged scenes. Each scene is tested with check, analyze and a short simulate.
+//! For any text, the required result is a consistent answer or an error with a message. A panic, an
+//! endless loop, growing memory, or contradicting values are failures.
 //!
 //! An input is a function of the seed and its number, so no input needs to be stored. Child
 //! processes test the inputs under the supervision of a parent process. Therefore stack overflows,

@@ -1,6 +1,6 @@
-//! Stiff and extreme cases, each with its known answer: an error bound with its source, or the
-//! error message that must occur. The known answers come from closed forms, published values,
-//! another derivation or exact arithmetic, never from the code under test.
+//! Stiff and extreme cases with known answers. The answer of a case is an error bound with its
+//! source, or the error message that must occur. The known answers come from closed forms,
+//! published values, another derivation or exact arithmetic, never from the code under test.
 //!
 //! ```
 //! use std::num::NonZeroUsize;

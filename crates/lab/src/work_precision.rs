@@ -28,7 +28,7 @@ pub fn ways() -> Vec<Comparator> {
     let own = [Method::Gbs, Method::GeneralizedAlpha].map(|m| way(kept, m, projected));
     let others = Formulation::ALL.map(|f| way(f, Method::Dop853, projected));
     let pulled = way(kept, Method::Dop853, Drift::BAUMGARTE);
-    // The curve for independent rows with the same method already exists for pfaff.
+    // For this method, the curves of pfaff already contain a curve with independent rows.
     let others = others.into_iter().filter(|w| w.formulation != kept);
     own.into_iter().chain(others).chain([pulled]).collect()
 }

@@ -77,10 +77,11 @@ pub fn driven_parallelogram(motions: [Function; 2]) -> Description {
     d
 }
 
-/// Returns three vertical cranks of 1 m under a coupler whose frame is at the tip of the third. In
-/// both bodies, the position of this tip has the same error ε. Therefore all points coincide, but
-/// the crank is not parallel to the others. In frames with the axes of the ground, ε replaces a
-/// zero, so that the constraint matrix contains ε without rounding for any value.
+/// Returns three vertical cranks of 1 m under a coupler whose frame is at the tip of the third
+/// crank. In both bodies, the position of this tip has the same error ε. Therefore all points
+/// coincide, but the third crank is not parallel to the other cranks. In frames with the axes of
+/// the ground, ε replaces a zero, so that the constraint matrix contains ε without rounding for any
+/// value.
 pub fn misaligned(error: f64) -> Description {
     let body = |name: String, position: [f64; 2]| Body {
         name,

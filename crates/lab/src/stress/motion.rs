@@ -91,8 +91,8 @@ pub fn built<S: BodySpace>(description: &MechanismDescription<S>) -> Result<Mech
 }
 
 /// Builds a described mechanism with its initial state, without a scene. The velocity of one body
-/// is given, and the velocities of the other bodies follow from the constraints. The correction of
-/// velocities may also change the given velocity, depending on the masses. Therefore cases about
+/// is given, and the velocities of the other bodies follow from the constraints. Depending on the
+/// masses, the correction of velocities may also change the given velocity. Therefore cases about
 /// initial states use texts.
 ///
 /// # Errors

@@ -1,6 +1,6 @@
 //! Runs several cases at the same time. Each case runs on a separate thread, so that a panic or an
-//! endless loop is an outcome of this case only. For the same reason the cases do not share a
-//! thread pool with this module.
+//! endless loop is an outcome of this case only. For the same reason, the cases do not use the
+//! thread pool of this module.
 //!
 //! The judgement of outcomes and the files are not part of this module.
 

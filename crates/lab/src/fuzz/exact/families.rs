@@ -1,7 +1,7 @@
 //! Families of drawings. Each family draws degenerate examples and similar examples that are not
-//! degenerate. In the latter, a point is displaced from its line by one step of the grid, which is
-//! at least a hundredth of the size. Therefore a program that reports all rows as redundant is
-//! wrong as often as a program that reports all rows as independent.
+//! degenerate. In the examples that are not degenerate, a point is displaced from its line by one
+//! step of the grid, which is at least a hundredth of the size. Therefore a program that reports
+//! all rows as redundant is wrong as often as a program that reports all rows as independent.
 
 mod bars;
 mod doubled;

@@ -1,8 +1,8 @@
 //! Planar drawings as wrenches in space. A unit multiplier of a row causes, on each body of the
 //! row, a force along a line of the drawing or a couple about the normal of the plane. The lines of
 //! the drawing before stretching and motion are used, because stretching, motion and other frames
-//! of bodies only change the basis. Therefore ranks and dependencies equal those of C, up to one
-//! factor for each row, and all values are rational.
+//! of bodies only change the basis. Therefore ranks and dependencies equal the ranks and
+//! dependencies of C, up to one factor for each row. All values are rational.
 
 use num_bigint::BigInt;
 

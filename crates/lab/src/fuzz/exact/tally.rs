@@ -141,7 +141,7 @@ pub struct Count {
     /// Numbers of scenes for which another rank is also correct, by reason.
     pub other: BTreeMap<&'static str, usize>,
     /// Scenes with findings, by the worst finding and by whether all results must be decided. The
-    /// value is the number of these scenes, and the numbers of the first of them.
+    /// value is the number of these scenes, and the numbers of the first scenes.
     pub not: BTreeMap<(Kind, bool), (usize, Vec<u64>)>,
 }
 

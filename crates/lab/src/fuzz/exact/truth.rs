@@ -148,7 +148,7 @@ impl Truth {
     }
 
     /// Whether the reaction of these rows is the same in all solutions:
-    /// `rank C = rank C_X + rank of the others`.
+    /// `rank C = rank C_X + rank of the other rows`.
     #[must_use]
     pub fn is_unique(&self, rows: &[usize]) -> bool {
         self.is_unique_without(rows, &[])

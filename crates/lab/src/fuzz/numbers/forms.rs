@@ -14,7 +14,7 @@ pub struct Form {
     pub index: Option<usize>,
     /// Factor that converts the component to a force: 1, or 1/size for a torque.
     pub unit: f64,
-    /// Nonzero coefficients, each with the row of C.
+    /// Nonzero coefficients. Each coefficient has the index of a row of C.
     pub coefficients: Vec<(usize, f64)>,
 }
 

@@ -26,8 +26,8 @@ pub(super) const FAMILY: Family = Family {
 };
 
 /// Error bound of accelerations with independent rows. The error is relative to the acceleration
-/// component, or to a thousandth of the largest component of the same body and kind if this is
-/// larger.
+/// component, or to a thousandth of the largest component of the same body and kind if this value
+/// is larger.
 const ACCELERATION: f64 = 1e-13;
 
 /// Error bound of multipliers of independent rows, relative to the largest multiplier of the same

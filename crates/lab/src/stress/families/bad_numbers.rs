@@ -215,7 +215,7 @@ fn with(place: &Place, number: &str) -> String {
     text
 }
 
-/// Returns all numbers of a text, except those in quotes.
+/// Returns all numbers of a text, except numbers in quotes.
 fn places(text: &str) -> Vec<Place> {
     let (mut places, mut from, mut table) = (Vec::new(), 0, String::new());
     for line in text.split_inclusive('\n') {

@@ -144,7 +144,8 @@ fn part(size: f64, options: &MotionOptions) -> Result<Outcome, Outcome> {
     ))
 }
 
-/// Returns a cart whose front point and rear point are driven along the cart at these rates.
+/// Returns a cart. Two drives move the front point and the rear point along the cart at these
+/// rates.
 fn towed([front, rear]: [Function; 2]) -> Description {
     let pull = |name: &str, x: f64, rate: Function| Joint {
         name: name.into(),

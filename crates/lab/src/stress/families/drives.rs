@@ -108,7 +108,7 @@ drive = [{{ name = "motor", joint = "pin", type = "angle", motion = {motion} }}]
     )
 }
 
-/// The angle is 2·t up to t = 1 and 3 − t after that.
+/// The angle is 2·t up to t = 1, and 3 − t for t > 1.
 fn after_the_kink(row: &Row, summary: &Summary) -> f64 {
     let lost = format!("{:.6e} J", 0.5 * INERTIA * (1.0 - 4.0));
     let is_reported = summary.events.iter().any(|e| e.text.contains(&lost));
@@ -118,8 +118,8 @@ fn after_the_kink(row: &Row, summary: &Summary) -> f64 {
     worst([row.q[2] - (3.0 - row.t), row.v[2] + 1.0])
 }
 
-/// Returns the same wheel without drive, with a torque of 1 N·m that changes to −2 N·m at the time
-/// `JUMP`.
+/// Returns the same wheel without a drive. A torque of 1 N·m acts on the wheel and changes to −2
+/// N·m at the time `JUMP`.
 fn pushed() -> String {
     format!(
         r#"
@@ -173,8 +173,8 @@ fn after_the_swing(row: &Row, _: &Summary) -> f64 {
 /// from t = 1 s on.
 fn disagreeing(by: f64) -> String {
     // The difference of the motors is half of `by` times (t − 1)²₊, which a spline would only
-    // approximate. Instead the law consists of short linear intervals. The rates jump between them,
-    // so the motors differ by 0.05·by rad/s from the first interval on.
+    // approximate. Instead the law consists of short linear intervals. The rates jump between two
+    // intervals, so the motors differ by 0.05·by rad/s from the first interval on.
     let pieces: Vec<f64> = (0..=10).map(|k| 1.0 + 0.1 * f64::from(k)).collect();
     let values: Vec<f64> = pieces
         .iter()

@@ -6,8 +6,8 @@ use crate::mechanisms::sketch::{Sketch, Tie};
 use crate::stress::case::{Case, Expected, Family, Outcome};
 use crate::stress::motion::{analysed, asking, study};
 
-/// Each kind of joint twice; joints that connect the ground to the ground; keys for which the
-/// motion would depend on an arbitrary choice.
+/// Scenes that contain each kind of joint twice; joints that connect the ground to the ground; keys
+/// for which the motion would depend on an arbitrary choice.
 pub(super) const FAMILY: Family = Family {
     name: "duplicates",
     about: "each kind of joint twice: its rows are redundant, in pairs; joints that constrain nothing and friction are refused by name",

@@ -25,7 +25,7 @@ fn cases() -> Vec<Case> {
         } else {
             10.0_f64.powi(exponent)
         };
-        // The relative tolerance of a coordinate refers to its distance from the origin.
+        // The relative tolerance of a coordinate refers to the distance from the origin.
         let known = RTOL.max(100.0 * f64::EPSILON * x.max(1.0));
         let base = MotionOptions {
             rtol: RTOL / x.max(1.0),

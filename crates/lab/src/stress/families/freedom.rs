@@ -8,7 +8,7 @@ use dynamics::{MotionOptions, PreparedMechanism, simulate};
 use crate::stress::case::{Case, Expected, Family, Outcome};
 use crate::stress::motion::{combinations, moving, study, worst};
 
-/// A crank under gravity with one motor, or with two.
+/// A crank under gravity with one motor, or with two motors.
 pub(super) const FAMILY: Family = Family {
     name: "freedom",
     about: "a crank under gravity whose motor prescribes its angle, alone or with a second one that agrees: the torque by inverse dynamics",

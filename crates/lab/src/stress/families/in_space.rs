@@ -190,8 +190,8 @@ joint = [{{ name = "tip", type = "spherical", bodies = ["ground", "top"], at = [
 
 /// Returns the expectation from the closed form of a pendulum motion. If masses differ by many
 /// powers of ten, implicit methods select the coordinates of heavy bodies as independent
-/// coordinates, also if these change ten times less than others. Errors grow by the square of this
-/// factor, and at every change of the independent coordinates.
+/// coordinates, even if these coordinates change ten times less than other coordinates. Errors grow
+/// by the square of this factor, and at every change of the independent coordinates.
 fn swings(options: &MotionOptions) -> Expected {
     let bound = if options.method == Method::Radau5 {
         1e-6

@@ -275,8 +275,8 @@ fn motion(written: Written, change: &Change, options: &MotionOptions) -> Result<
     ))
 }
 
-/// Returns the largest difference between the converted values and the original values, relative to
-/// the size of the mechanism.
+/// Returns the largest difference between converted and original values, relative to the size of
+/// the mechanism.
 fn off(was: &[f64], is: &[f64], change: &Change, by: [f64; 2], angle: f64) -> f64 {
     let mut bodies: Vec<&[f64]> = is.chunks(3).collect();
     if change.reversed {

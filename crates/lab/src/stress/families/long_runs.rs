@@ -1,5 +1,5 @@
 //! Very long runs: a pendulum for a thousand seconds in steps of a millisecond, mechanisms in space
-//! for a hundred seconds, and the drift of their values.
+//! for a hundred seconds, and the drift of constant values.
 
 use std::time::Duration;
 

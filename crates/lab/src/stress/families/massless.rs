@@ -175,8 +175,8 @@ impl Chain {
     }
 }
 
-/// Returns a case with cranks under a coupler, some of them massless. All cranks have the same
-/// angle.
+/// Returns a case with cranks under a coupler. Some cranks are massless, and all cranks have the
+/// same angle.
 fn massless_cranks(name: &str, pivots: &[f64], massless: u8, options: &MotionOptions) -> Case {
     let (length, theta) = (0.5, 1.0_f64);
     let mut d = cranks(pivots, length, theta);

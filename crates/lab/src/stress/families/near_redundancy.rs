@@ -26,12 +26,13 @@ const DECIDED: f64 = 1e-6;
 /// Some thousand rounding errors of values of size 1. A larger ε must not count as a rounding
 /// error.
 const ROUNDING: f64 = 1e-12;
-/// Data of size 1 are accurate to about 1e-15. Between this constant and the next one, ε may be an
-/// actual angle or zero.
+/// Data of size 1 are accurate to about 1e-15. Between this constant and the next constant, ε may
+/// be an actual angle or zero.
 const READ_BOTH_WAYS: f64 = 5e-15;
 /// See the constant [`READ_BOTH_WAYS`].
 const ROUNDED_AWAY: f64 = 5e-14;
-/// Below this ε, reactions are a thousand times as large as the loads, and a warning is expected.
+/// Below this ε, reactions are more than a thousand times as large as the loads, and a warning is
+/// expected.
 const WARNED: f64 = 1e-3;
 /// Half the distance of the wheels (m).
 const HALF: f64 = 0.5;

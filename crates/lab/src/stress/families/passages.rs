@@ -84,8 +84,8 @@ fn is_explicit(method: Method) -> bool {
     matches!(method, Method::Dop853 | Method::Dopri5 | Method::Tsit5)
 }
 
-/// Returns cranks with a piecewise linear drive of two intervals with equal slopes, whose boundary
-/// is near the singular configuration.
+/// Returns cranks with a piecewise linear drive. The drive has two intervals with equal slopes, and
+/// the boundary of the intervals is near the singular configuration.
 fn driven(pivots: &[f64], offset: f64) -> Description {
     let mut d = cranks(pivots, 0.5, START);
     let times = [0.0, offset - START, END - START];

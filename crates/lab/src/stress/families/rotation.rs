@@ -57,8 +57,8 @@ fn cases() -> Vec<Case> {
     cases
 }
 
-/// Returns the expectation for methods of low order. For this tolerance they need more steps than
-/// allowed, or the steps are too short for the accuracy of such large velocities.
+/// Returns the expectation for methods of low order. For this tolerance, these methods need more
+/// steps than allowed, or the steps are too short for the accuracy of such large velocities.
 fn limit(bound: f64) -> Expected {
     Expected::AnswerOrRefusal {
         bound,

@@ -1,5 +1,5 @@
-//! Configurations at which the rank is lower than at others. The verdicts at this configuration and
-//! at other configurations must be correct, and the report must contain both.
+//! Configurations at which the rank is lower than at other configurations. The verdicts at this
+//! configuration and at other configurations must be correct, and the report must contain both.
 
 use joints::KnifeEdge;
 use joints::plane::Direction;
@@ -218,7 +218,7 @@ fn edges(steering: f64, sizes: [usize; 3]) -> Result<Outcome, Outcome> {
     Ok(Outcome::fact(found == sizes && unique == shared, detail))
 }
 
-/// A cart whose front wheels are perpendicular to it, with a forward velocity.
+/// A cart with a forward velocity and front wheels perpendicular to the cart.
 const LOCKED: &str = r#"
 scene = { name = "locked", space = "plane" }
 body = [{ name = "cart", mass = 1.0, inertia = 1.0, velocity = [1.0, 0.0] }]

@@ -13,8 +13,8 @@ pub(super) const FAMILY: Family = Family {
     cases,
 };
 
-/// Returns a bob whose pivot is 1 m to its left. The described centre of the bob is displaced by
-/// `off` to the right.
+/// Returns a bob with a pivot 1 m to the left of the bob. The described centre of the bob is
+/// displaced by `off` to the right.
 fn bob(off: f64, mass: f64, inertia: f64, velocity: [f64; 2], start: &str) -> String {
     let [vx, vy] = velocity;
     format!(

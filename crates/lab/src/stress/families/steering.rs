@@ -1,5 +1,5 @@
 //! A steered wheel is rotated through ±90°. At this angle, the forward speed of the frame is zero
-//! for any speed of the wheel. Two wheels with equal steering angles block the motion.
+//! for any speed of the wheel. If two wheels have equal steering angles, no motion is possible.
 
 use dynamics::MotionOptions;
 

@@ -29,7 +29,7 @@ const MAX_STEPS_OF_CHOICE: u64 = 40_000;
 const RTOL: f64 = 1e-8;
 
 /// Smallest error bound at the end, as a multiple of the tolerance. A few steps may be less
-/// accurate than the others.
+/// accurate than the other steps.
 const LEAST: f64 = 1e3;
 
 fn cases() -> Vec<Case> {

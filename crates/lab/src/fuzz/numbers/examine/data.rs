@@ -7,7 +7,7 @@ use crate::fuzz::numbers::displaced::Displaced;
 use crate::fuzz::numbers::findings::{Count, Findings, Kind};
 use crate::fuzz::numbers::verdicts::Judge;
 
-/// Limits for the change of a reaction component when one datum changes. A component that is
+/// Limits for the change of a reaction component due to a change of one datum. A component that is
 /// reported as well determined must not change by more than `STURDY`. A component that is reported
 /// as fragile is expected to change by more than `FRAGILE`.
 const STURDY: f64 = 0.12;

@@ -25,8 +25,8 @@ fn rests(pen: &mut Pen<'_>, pair: [Side; 2], at: Vector, normal: Vector) {
     pen.joint(pair, kind);
 }
 
-/// Draws a table on three to five points of a plane. Three of the constraints are independent, or
-/// two if all points are on a line.
+/// Draws a table. Three to five points of the table are on a plane. Three of the constraints are
+/// independent, or two if all points are on a line.
 fn table(pen: &mut Pen<'_>) {
     let (base, table) = (pen.base, pen.body());
     let zero = Ratio::zero();
@@ -97,7 +97,7 @@ fn cone_groove_plane(pen: &mut Pen<'_>) {
     pen.unknown();
 }
 
-/// Draws a body on up to eight points of three planes. The planes are perpendicular or oblique.
+/// Draws a body with up to eight points on three planes. The planes are perpendicular or oblique.
 fn box_on_planes(pen: &mut Pen<'_>) {
     let (base, body) = (pen.base, pen.body());
     let is_square = pen.once_in(2);

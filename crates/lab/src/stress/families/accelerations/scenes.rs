@@ -253,7 +253,7 @@ fn robots(power: i32) -> [(&'static str, Description); 3] {
 }
 
 /// Returns the robot, rotated relative to the axes of the ground. The trolley is at an angle, the
-/// steering moves, and each mass is multiplied by the factor `by`.
+/// steering rotates, and each mass is multiplied by the factor `by`.
 fn turned_robot(by: impl Fn(&Body) -> f64) -> Description {
     let steering = Function::constant_rate(0.05).expect("a finite rate");
     let mut d = robot(steering);

@@ -6,19 +6,19 @@ use model::System;
 use crate::stress::motion::worst;
 use exact::Solution;
 
-/// For an acceleration below this fraction of the largest acceleration of the same body and kind,
-/// the error is relative to this fraction of the largest one.
+/// If an acceleration is below this fraction of the largest acceleration of the same body and kind,
+/// the error is relative to this fraction of the largest acceleration.
 const LEAST: f64 = 1e-3;
 
 /// Errors of one solution.
 pub(super) struct Errors {
-    /// Largest error of accelerations. Each is relative to the acceleration, or to a fraction of
-    /// the largest acceleration of the same body and kind.
+    /// Largest error of accelerations. Each error is relative to the acceleration, or to a fraction
+    /// of the largest acceleration of the same body and kind.
     pub(super) acceleration: f64,
     /// Error of the multipliers of independent rows, relative to the largest multiplier of the same
     /// joint.
     pub(super) multipliers: f64,
-    /// The largest mass or moment of inertia divided by the smallest.
+    /// The largest mass or moment of inertia divided by the smallest mass or moment of inertia.
     pub(super) spread: f64,
 }
 
