@@ -1,6 +1,6 @@
 //! The cost of programs that use parts of the project: clean build time, size and dependencies. The
-//! programs are the small programs in `xtask/choices` and the command itself. They are built one
-//! after another, each in an empty target directory.
+//! programs are the small programs in `xtask/choices` and the command itself. The programs are
+//! built one after another. Each program is built in an empty target directory.
 
 use std::collections::BTreeSet;
 use std::fs;

@@ -46,7 +46,7 @@ const FAMILIES: [Family; 2] = [
     },
 ];
 
-/// Writes all generated files and removes those whose definition no longer exists.
+/// Writes all generated files, and removes generated files without a definition.
 pub(crate) fn write() -> Result<String, String> {
     let root = root();
     let files = generate(&root)?;

@@ -1,6 +1,6 @@
 //! The allowed licences, and the choice between several licences of a crate.
 
-/// Allowed licences in the order of preference, each with the reason.
+/// Allowed licences in the order of preference, with the reason for each licence.
 pub(super) const ALLOWED: [(&str, &str); 11] = [
     (
         "MIT",
