@@ -30,7 +30,7 @@ from matplotlib import pyplot
 FOLDER = Path(__file__).resolve().parent / "notebooks"
 
 VARIES = "varies-by-machine"
-"""The tag of cells whose pictures show run times, or errors as small as rounding."""
+"""The tag of cells with pictures that depend on run times or on rounding errors."""
 
 COLOURS = 64
 """Number of colours of a stored picture: enough for lines on white, with a third of the size."""

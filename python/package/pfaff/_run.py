@@ -236,7 +236,7 @@ class Run:
         self.reactions: Array = self.choices[0].reactions if is_chosen else reactions
         """The columns of ``reactions.csv`` after ``t``.
 
-        Empty cells are NaN. With a single choice the values are those of the choice.
+        Empty cells are NaN. With a single choice, the table contains the values of this choice.
         """
         self.loads: Array = loads
         """The columns of ``loads.csv`` after ``t``."""
