@@ -29,7 +29,7 @@ pub(crate) struct Key {
 /// Kind of value of a key.
 #[derive(Clone, Copy)]
 pub(crate) enum Takes {
-    /// The name of something.
+    /// The name of an element of the scene.
     Name,
     /// Any text.
     Text,

@@ -306,7 +306,7 @@ impl<'a, 'j, 'r, S: SceneSpace> Train<'a, 'j, 'r, S> {
         })
     }
 
-    /// Whether a joint could not be read completely. That joint may be the missing one.
+    /// Whether a joint could not be read completely. That joint may be the missing joint.
     pub(super) fn is_incomplete(&self) -> bool {
         let is_unread = |joint: &JointRead<S>| matches!(Bearing::of(joint), Ok(None));
         self.references.joints.all().iter().any(is_unread)
