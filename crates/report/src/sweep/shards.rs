@@ -229,7 +229,7 @@ impl Shards {
             if found.is_sealed {
                 let common = wanted.without(&wanted.without(&[found.runs]));
                 let expected: u64 = common.iter().map(|runs| runs.count()).sum();
-                // A damaged shard is made again.
+                // The runs of a damaged shard are repeated.
                 if count >= expected {
                     gathered.sealed.push(found.runs);
                 }
