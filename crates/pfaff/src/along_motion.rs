@@ -472,7 +472,7 @@ mod tests {
                 row.a
             );
         }
-        // Two points determine a line.
+        // With two rows, the rate of change is constant.
         let mut rows: Vec<Row> = [1.0, 3.0].into_iter().map(row).collect();
         differentiate(&mut rows);
         assert!(rows.iter().all(|row| row.a == [0.0, 7.0]));

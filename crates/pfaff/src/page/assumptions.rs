@@ -135,7 +135,7 @@ fn drives(page: &RunPage<'_>) -> Option<String> {
     }
 }
 
-/// States how accurate the data are.
+/// States the accuracy of the data.
 fn data(run: &RunDocument) -> Vec<String> {
     let data = &run.data;
     let length = data
@@ -157,7 +157,7 @@ fn data(run: &RunDocument) -> Vec<String> {
     [Some(first), warning].into_iter().flatten().collect()
 }
 
-/// States how accurate the motion is.
+/// States the accuracy of the motion.
 fn accuracy(page: &RunPage<'_>, run: &RunDocument) -> String {
     let stated = page.options.iter().find(|(what, _)| what == "Tolerances");
     let stated = stated.map_or_else(String::new, |(_, value)| {

@@ -137,7 +137,7 @@ impl RunPage<'_> {
         title.unwrap_or(self.mechanism.name())
     }
 
-    /// Whether the picture moves.
+    /// Whether the picture is animated.
     pub(super) fn moves(&self) -> bool {
         !matches!(self.shows, Shows::Start)
     }

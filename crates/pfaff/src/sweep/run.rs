@@ -74,12 +74,13 @@ impl UnvariedScene {
 pub(super) struct MadeRun {
     pub(super) motion: SweepMotion,
     pub(super) error: Option<StudyError>,
-    /// Whether the run has left generated code before its end.
+    /// Whether the run continued with the interpreter before its end, and not with generated code.
     left_code: bool,
 }
 
 impl MadeRun {
-    /// Whether the run stopped after it had left generated code.
+    /// Whether the run stopped after it had continued with the interpreter in place of generated
+    /// code.
     pub(super) fn has_lost_its_way(&self) -> bool {
         self.error.is_some() && self.left_code
     }
