@@ -18,7 +18,7 @@ const ENOUGH: Duration = Duration::from_micros(500);
 pub(crate) struct Time {
     /// Median time over the rounds (s).
     pub(crate) median: f64,
-    /// Least time over the rounds (s).
+    /// Minimum time over the rounds (s).
     pub(crate) least: f64,
 }
 
