@@ -185,7 +185,8 @@ impl<'a> Equations<'a> {
         }
     }
 
-    /// Returns accelerations and reactions of all joints and drives at a state; allocates.
+    /// Returns accelerations, and reactions of all joints and drives, at a state. The method
+    /// allocates memory.
     ///
     /// # Errors
     /// Returns the errors of [`Equations::accelerate`].

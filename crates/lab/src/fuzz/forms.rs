@@ -321,8 +321,9 @@ impl Tally {
         })
     }
 
-    /// Whether no decision is wrong and few sets are undecided: in two unknowns only sets with
-    /// coincident zeros, in three unknowns at most one of twenty random sets.
+    /// Whether no decision is wrong and few sets are undecided. In two unknowns, only sets with
+    /// coincident zeros may be undecided. In three unknowns, at most one of twenty random sets may
+    /// be undecided.
     #[must_use]
     pub fn passes(&self) -> bool {
         let [open, all] = self.undecided(3);

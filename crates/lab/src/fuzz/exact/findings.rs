@@ -50,7 +50,7 @@ impl Kind {
 pub struct Finding {
     /// Severity of the finding.
     pub kind: Kind,
-    /// The text of the program, and the correct result.
+    /// The output of the program, and the correct result.
     pub text: String,
 }
 

@@ -21,8 +21,8 @@ pub struct Outcome {
     pub truth: String,
     /// Whether the scene is redundant by exact arithmetic.
     pub is_redundant: bool,
-    /// Whether all results must be decided, because the scene is near the origin and a lower rank
-    /// is far away.
+    /// Whether all results must be decided. This is the case if the scene is near the origin and
+    /// far from a lower rank.
     pub must_be_decided: bool,
 }
 

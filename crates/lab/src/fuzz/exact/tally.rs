@@ -288,7 +288,8 @@ impl Tally {
         self.sum(|_, _| true).wrong()
     }
 
-    /// Whether no answer is wrong, and few answers are undecided that should be decided.
+    /// Whether no answer is wrong, and only few answers are undecided although they should be
+    /// decided.
     #[must_use]
     pub fn passes(&self) -> bool {
         let [all_digits, within] =

@@ -141,7 +141,7 @@ impl Truth {
         all.filter(|i| !deleted.contains(i)).collect()
     }
 
-    /// Whether the rank is unchanged without some rows.
+    /// Whether the rank does not change if these rows are deleted.
     #[must_use]
     pub fn keeps_motion(&self, deleted: &[usize]) -> bool {
         self.rank_of(&self.without(deleted)) == self.rank()

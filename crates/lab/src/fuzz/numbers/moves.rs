@@ -107,8 +107,8 @@ pub fn ranks(mechanism: &Mechanism, (t, q): (f64, &[f64]), numbers: &mut Numbers
     [here, near.into_iter().flatten().fold(here, usize::max)]
 }
 
-/// Whether an independent step moves the mechanism at a configuration. The step is along velocities
-/// that the drives require, or along any free motion.
+/// Whether a mechanism can move from a configuration, according to an independent step. The step is
+/// along velocities that the drives require, or along any free motion.
 #[must_use]
 pub fn moves(mechanism: &Mechanism, (t, q): (f64, &[f64]), numbers: &mut Numbers) -> bool {
     let size = scene_size(mechanism, q);

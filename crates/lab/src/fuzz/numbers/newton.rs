@@ -119,7 +119,8 @@ impl<'a> Kept<'a> {
 }
 
 impl Factored {
-    /// Returns x and μ, with μ for the unscaled rows. Returns `None` if the system is singular.
+    /// Returns x and μ. The multipliers μ belong to the unscaled rows. Returns `None` if the system
+    /// is singular.
     fn solve(
         &self,
         load: Option<DVector<f64>>,

@@ -138,7 +138,8 @@ fn is_singular(mechanism: &Mechanism, at: (f64, &[f64]), numbers: &mut Numbers) 
     here < near || SecondOrder::at(mechanism, at).is_none_or(|mut o| o.is_restricted(numbers))
 }
 
-/// Whether a configuration is near a configuration of lower rank; velocities have no effect.
+/// Whether a configuration is near a configuration of lower rank. The result does not depend on
+/// velocities.
 fn is_near_singular(mechanism: &Mechanism, at: (f64, &[f64])) -> bool {
     SecondOrder::at(mechanism, at).is_none_or(|order| order.sigma() < 1e-3)
 }

@@ -33,7 +33,7 @@ pub struct Row {
 
 /// A run.
 pub struct Run {
-    /// The study that ran.
+    /// The study of the run.
     pub study: Study,
     /// Rows of the run. There are twice as many rows as the scene requests.
     pub rows: Vec<Row>,

@@ -113,8 +113,9 @@ impl Tally {
         self.disagreeing.get(&kind).map_or(0, |d| d.count)
     }
 
-    /// Whether no finding means a wrong result, at most one in a thousand components is
-    /// unexplained, and at least half of the ill-determined components change with a datum.
+    /// Whether three conditions are satisfied: no finding means a wrong result, at most one of a
+    /// thousand components is unexplained, and at least half of the ill-determined components
+    /// change with a datum.
     #[must_use]
     pub fn passes(&self) -> bool {
         let wrong = self.disagreeing.keys().any(|kind| kind.is_wrong());

@@ -116,7 +116,8 @@ fn on_bodies(drawing: &Drawing, sides: [Side; 2], wrench: &[BigInt]) -> Vec<BigI
 struct Row {
     sides: [Side; 2],
     wrench: Wrench,
-    /// Whether the row restricts the configurations of the mechanism for any motion of its drives.
+    /// Whether the row restricts the configurations of the mechanism, whatever the motion of its
+    /// drives.
     leads: bool,
 }
 

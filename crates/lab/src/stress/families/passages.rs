@@ -78,8 +78,8 @@ fn passed(pivots: &'static [f64], offset: f64, options: &MotionOptions) -> Case 
     case.at("offset of the break time", offset.abs().max(1e-17))
 }
 
-/// Whether the method is explicit. Its few stages can avoid the instant of the singular
-/// configuration.
+/// Whether the method is explicit. An explicit method has few stages, and none of the stages needs
+/// to be at the instant of the singular configuration.
 fn is_explicit(method: Method) -> bool {
     matches!(method, Method::Dop853 | Method::Dopri5 | Method::Tsit5)
 }
