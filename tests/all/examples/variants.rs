@@ -114,7 +114,7 @@ const NEIGHBOURS: [Neighbour; 12] = [
         without: &["guide"],
         numbers: [21, 0, 0],
         not_unique: &[],
-        said: "Leave the guide out",
+        said: "Omit the guide",
     },
     Neighbour {
         name: "chebyshev",

@@ -53,7 +53,7 @@ pub const OPERATIONS: &str = "acceleration: 364 mul, 291 add, 3 neg, 10 div; mul
 fn least(a: f64, b: f64) -> f64 {
     if b < a || b.is_nan() { b } else { a }
 }
-/// Functions of time, each with two derivatives.
+/// Functions of time, with two derivatives of each function.
 #[inline]
 fn jets(t: f64) -> [f64; 3usize] {
     let [f0, d0, dd0] = steps(

@@ -203,7 +203,7 @@ pub fn principal_axes(p: &[f64; N_P]) -> [[f64; 4]; 3usize] {
 fn least(a: f64, b: f64) -> f64 {
     if b < a || b.is_nan() { b } else { a }
 }
-/// Functions of time, each with two derivatives.
+/// Functions of time, with two derivatives of each function.
 #[inline]
 fn jets(t: f64, p: &[f64; N_P]) -> [f64; 15usize] {
     let [f0, d0, dd0] = harmonic(t, [p[46], 2.0, 0.3, 0.0]);

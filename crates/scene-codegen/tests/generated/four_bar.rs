@@ -89,7 +89,7 @@ pub const DESCRIBED: [f64; N_P] = [
 fn least(a: f64, b: f64) -> f64 {
     if b < a || b.is_nan() { b } else { a }
 }
-/// Functions of time, each with two derivatives.
+/// Functions of time, with two derivatives of each function.
 #[inline]
 fn jets(t: f64, p: &[f64; N_P]) -> [f64; 3usize] {
     let [f0, d0, dd0] = harmonic(t, [p[13], 5.0, 0.2, 0.1]);

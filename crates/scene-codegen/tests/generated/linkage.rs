@@ -63,7 +63,7 @@ pub const PRINCIPAL_AXES: [[f64; 4]; 3usize] = [
 fn least(a: f64, b: f64) -> f64 {
     if b < a || b.is_nan() { b } else { a }
 }
-/// Functions of time, each with two derivatives.
+/// Functions of time, with two derivatives of each function.
 #[inline]
 fn jets(t: f64) -> [f64; 6usize] {
     let [f0, d0, dd0] = polynomial(t, &[0.0, 0.5]);
