@@ -177,8 +177,9 @@ impl<S: Bodies> Case<S> {
         }
     }
 
-    /// Returns the largest coordinate of poses, initial poses and parameters. The value is at least
-    /// 1. A relative error of ε in this coordinate changes Φ by ε times this coordinate times ‖C‖.
+    /// Returns the largest coordinate of poses, initial poses and parameters, or 1 if all are
+    /// smaller. A relative error of ε in this coordinate changes Φ by ε times this coordinate times
+    /// ‖C‖.
     pub(crate) fn size(&self) -> f64 {
         let poses = self.x.iter().chain(&self.start).flat_map(|p| {
             let ([x, y, z], angle) = S::origin(p);

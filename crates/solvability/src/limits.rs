@@ -115,9 +115,9 @@ pub(crate) const NEAR_TOLD: f64 = 1e-3;
 
 /// Factor in the error of first-order equations. The error is the square of the change, as a share
 /// of the size, times this factor. The change that lowers the rank at all configurations is up to
-/// ten times the change for one entry. Second derivatives are about ten if links are short. Unit:
-/// 1. Too small: a first-order estimate is used outside its range of validity. Too large: near
-/// redundancy is not proved. Test: `a_dead_centre_is_a_pose_and_no_redundancy`.
+/// ten times the change for one entry. Second derivatives are about ten if links are short.
+/// Unit: 1. Too small: a first-order estimate is used outside its range of validity. Too large:
+/// near redundancy is not proved. Test: `a_dead_centre_is_a_pose_and_no_redundancy`.
 pub(crate) const CURVED: f64 = 100.0;
 
 /// Maximum constraint violation of a configuration on a continuation path, as a share of the size.

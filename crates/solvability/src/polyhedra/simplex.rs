@@ -132,9 +132,10 @@ impl<'p> Simplex<'p> {
             let slope = |k| self.slope(k, &vertex.multipliers, phase).map(|s| (k, s));
             let nonbasic = (0..self.lengths.len()).filter(|k| !self.basic.contains(k));
             let mut falling = nonbasic.filter_map(slope);
-            let entering = match is_degenerate {
-                true => falling.next(),
-                false => falling.min_by(|(_, a), (_, b)| a.total_cmp(b)),
+            let entering = if is_degenerate {
+                falling.next()
+            } else {
+                falling.min_by(|(_, a), (_, b)| a.total_cmp(b))
             };
             let Some((entering, _)) = entering else {
                 return Ok(Some(vertex));

@@ -2,11 +2,11 @@
 //! the forms has no zero.
 //!
 //! Zeros are directions. Therefore the faces `a_i = 1`, `|a_k| ≤ 1` of the cube contain all zeros.
-//! In a box with centre c and half width h, a form differs from its value at c by at most `h·Σ|g_k|
-//! + h²·Σ|M_kl|`, where g is the gradient of the form at c. Four kinds of combinations are tried:
-//! the forms themselves, the steepest combination for the values at c, the part of this combination
-//! that is orthogonal to the gradients, and the combinations of Newton's method, whose gradients
-//! have one unknown each.
+//! In a box with centre c and half width h, a form differs from its value at c by at most
+//! `h·Σ|g_k| + h²·Σ|M_kl|`, where g is the gradient of the form at c. Four kinds of combinations
+//! are tried: the forms themselves, the steepest combination for the values at c, the part of this
+//! combination that is orthogonal to the gradients, and the combinations of Newton's method, whose
+//! gradients have one unknown each.
 
 use crate::limits::{BOX_HALVINGS, BOXES};
 use linalg::{Matrix, small_svd};

@@ -111,9 +111,9 @@ fn no_definite_combination_is_needed_in_three_unknowns() {
     assert_eq!(common_zero(&all, ERROR), None);
 }
 
-/// The forms are the real parts and the imaginary parts of (x + i·y)² = x² − y² + 2i·x·y and of (z
-/// + i·w)². All forms vanish together only at zero. The motion is blocked. The traces are zero, so
-/// no combination is definite.
+/// The forms are the real parts and the imaginary parts of (x + i·y)² = x² − y² + 2i·x·y and of
+/// (z + i·w)². All forms vanish together only at zero. The motion is blocked. The traces are zero,
+/// so no combination is definite.
 #[test]
 fn four_unknowns_are_covered() {
     let (x, y, z, w) = (0, 1, 2, 3);

@@ -96,8 +96,7 @@ pub(super) fn bennett(pen: &mut Pen<'_>) {
 /// Draws two Bennett linkages that share the link 1–2. The links 4–1 of both linkages are one body,
 /// the base. If the shared link is removed, a hinge connects the other two links at joint 2. The
 /// result is Goldberg's 5R linkage, with 25 rows of rank 23. With the shared link there are 35 rows
-/// of rank
-/// 29. If the linkages coincide, theory gives no result.
+/// of rank 29. If the linkages coincide, theory gives no result.
 fn goldberg(pen: &mut Pen<'_>, one: [Kind; 4], other: [Kind; 4], is_merged: bool) {
     let coincide = one[2] == other[2];
     let base = pen.base;
