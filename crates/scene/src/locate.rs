@@ -100,7 +100,7 @@ pub(crate) fn build(map: &SourceMap, d: &AnyDescription, error: &BuildError) -> 
         }
         BuildError::Limits { name, key, .. } => (
             element_key(map, name, &[key]),
-            "not possible for this joint",
+            "cannot be used as described",
         ),
         BuildError::SameBody { name, .. } => (
             connection(map, d, name, |bodies| {

@@ -167,10 +167,13 @@ impl RunEquations<'_> {
         let Some(contacts) = contacts else {
             return Ok(Closure::default());
         };
+        if contacts.joints.are_pressed(mechanism, &at.s, multipliers) {
+            return Ok(Closure::default());
+        }
         rows.all_dependencies(at, &mut dependencies)?;
-        Ok(contacts
-            .joints
-            .closure((mechanism, &at.s), (multipliers, size), &dependencies))
+        let state = (mechanism, &at.s);
+        let permitted = (contacts.joints).permitted(state, (multipliers, size), &dependencies);
+        Ok(permitted.closure())
     }
 
     /// Ends the run if an impulse with these multipliers must pull on a one-sided joint.

@@ -92,7 +92,7 @@ fn contacts(page: &RunPage<'_>) -> Vec<String> {
     let mut all = Vec::new();
     if !sided.is_empty() {
         all.push(format!(
-            "One-sided joints act in one direction only and can open: {}. The run ends when they cannot all stay closed.",
+            "One-sided joints act in one direction only and can open: {}. The run ends when they cannot all stay closed. A choice among the solutions may contain loads that they do not permit.",
             listed(&sided)
         ));
     }

@@ -42,23 +42,14 @@ impl CarriedContacts {
         (!joints.is_empty()).then_some(Self { joints })
     }
 
-    /// Decides whether the joints can stay closed; see [`Self::permitted`].
+    /// Returns whether one solution presses on all joints at the state of the scratch, so that no
+    /// search is needed.
     #[must_use]
-    pub fn closure(
-        &self,
-        at: (&Mechanism, &Scratch),
-        solution: (&[f64], f64),
-        dependencies: &[Vec<f64>],
-    ) -> Closure {
-        // Most states need no search: the solution itself presses on all joints.
-        let (mechanism, scratch) = at;
+    pub fn are_pressed(&self, mechanism: &Mechanism, s: &Scratch, multipliers: &[f64]) -> bool {
         let presses = |&(id, row, sign): &(ConstraintId, usize, f64)| {
-            -sign * pressing_force(mechanism, scratch, id) * solution.0[row] >= 0.0
+            -sign * pressing_force(mechanism, s, id) * multipliers[row] >= 0.0
         };
-        if self.joints.iter().all(presses) {
-            return Closure::default();
-        }
-        self.permitted(at, solution, dependencies).closure()
+        self.joints.iter().all(presses)
     }
 
     /// Returns the loads that the joints permit at the state of the scratch, in which C has been
