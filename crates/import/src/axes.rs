@@ -1,6 +1,6 @@
 //! Finds axes of a loop that are nearly parallel or nearly intersect. The cause may be rounded
-//! digits or an intended tilt. The axes are reported. On request, they are made parallel or
-//! intersecting.
+//! digits or an intended tilt. The import reports these axes. On request, the import makes these
+//! axes parallel or intersecting.
 
 use model::words::estimate;
 use std::cmp::Reverse;
@@ -12,13 +12,12 @@ use crate::limits::{EXACT, MEETING, NEARLY, SNAPPED};
 use crate::mechanism::{JointKind, Model};
 use crate::pose::placing;
 
-/// Whether axes are made parallel or only reported.
+/// Treatment of axes that are nearly parallel or nearly intersect.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Axes {
-    /// Axes are only reported.
+    /// The import reports these axes and does not change them.
     Told,
-    /// Axes that are nearly parallel or nearly intersect are made parallel or intersecting, and the
-    /// changes are reported.
+    /// The import makes these axes parallel or intersecting, and reports the changes.
     Snapped,
 }
 
@@ -52,8 +51,8 @@ impl Tilt {
     }
 }
 
-/// Returns the angle up to which axes are made parallel. It is computed from the accuracy of angles
-/// in the file.
+/// Returns the largest angle (rad) between two axes that the import makes parallel on request. The
+/// angle is three times the accuracy of angles in the file, but at least `SNAPPED`.
 fn near(angle: Option<f64>) -> f64 {
     SNAPPED.max(3.0 * angle.unwrap_or(0.0))
 }

@@ -278,8 +278,9 @@ impl std::fmt::Display for RowLabel {
 }
 
 /// Storage of one evaluation, created by [`System::scratch`]. The storage contains the results of
-/// the kernels. The storage belongs to the mechanism that created it, because results of the last
-/// evaluation are not recomputed.
+/// the kernels. The storage is valid only for the mechanism that created it. An evaluation reuses
+/// some results of the previous evaluation, such as constant entries of C. For another mechanism,
+/// these results would be wrong.
 #[derive(Clone, Debug)]
 pub struct Scratch {
     /// Time of the poses.

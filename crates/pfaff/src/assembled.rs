@@ -55,8 +55,8 @@ impl AssembledScene {
         Ok(Self { scene, mechanism })
     }
 
-    /// Builds the mechanism of a scene. The argument may also be a description that a program made
-    /// without a scene.
+    /// Builds the mechanism of a scene. The argument is a [`Scene`] or the description of a
+    /// mechanism, for example a description that a Rust program built without the text of a scene.
     ///
     /// # Errors
     /// [`StudyError::Build`]: all faults of the description. If the scene was read from a text and

@@ -38,7 +38,8 @@ pub(crate) struct BodyLoads<'m> {
     /// Whether the values of the first choice are written.
     is_chosen: bool,
     rows: TableRows,
-    /// The written table, available after the end.
+    /// Data of the written table for the document of the run. The data are complete after
+    /// `RowSink::end`.
     pub(crate) found: BodyOfRunDocument,
 }
 

@@ -139,7 +139,8 @@ pub enum CodeError {
     /// A row number is zero, but rows are 1-based.
     #[error("rows to drop are counted from 1, found 0")]
     RowZero,
-    /// A generated file differs from the module that its scene gives now.
+    /// A file with generated code is out of date: the content of the file differs from the module
+    /// that is now generated from the same scene.
     #[error("{path} does not agree with its scene: generate it again")]
     Stale {
         /// Path of the file.

@@ -1,7 +1,8 @@
-//! The equations in the frame of one body. If a mechanism moves freely in the plane, its
-//! accelerations relative to this frame do not depend on its orientation. In the frame of a body,
-//! the arms on this body are constants. Therefore there are fewer products, and a pivot does not
-//! become small only because the whole mechanism has rotated.
+//! The equations in the frame of one body. If a mechanism moves freely in the plane, the
+//! accelerations relative to this frame do not depend on the orientation of the mechanism. The
+//! lever arms on this body are constant in the frame, so the generated code contains fewer products
+//! than with ground axes. A rotation of the whole mechanism does not change the coefficients of the
+//! equations in the frame, so this rotation does not make a pivot small.
 //!
 //! The frame has no velocity; it is only rotated by the current angle θ of the body. Positions and
 //! velocities are rotated by −θ, and accelerations back by θ. Two rows that are the components x

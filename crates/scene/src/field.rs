@@ -411,8 +411,9 @@ impl<'t> Field<'t> {
         ))
     }
 
-    /// Returns the position in the file of a part of this text. If the text is written with
-    /// escapes, the result is the position of the whole value.
+    /// Returns the position in the file of a part of the text that this field contains. The
+    /// argument is the range of the part within the text. If the file contains escape sequences in
+    /// the text, the result is the position of the whole value.
     pub(crate) fn part(&self, part: Range<usize>) -> Range<usize> {
         let whole = self.span();
         let text = self.value.get_ref().as_str().unwrap_or_default();

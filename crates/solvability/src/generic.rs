@@ -75,10 +75,12 @@ impl GenericVerdict {
     }
 }
 
-/// Returns ranks at configurations other than (t, q), which must satisfy the constraints. Returns
-/// `None` if no configuration with a decided rank was found (a structure that cannot move has only
-/// one configuration). Also returns `None` if there are no rows or more than [`ONE_PART`], or if t
-/// and q are not a configuration of this mechanism.
+/// Determines the rank of C at other configurations of the mechanism. Motions without the drives
+/// lead from the configuration (t, q) to the other configurations. Returns the other configurations
+/// with their ranks. The configuration (t, q) must satisfy the constraints. Returns `None` if no
+/// other configuration with a decided rank was found. For example, a structure that cannot move has
+/// only one configuration. Also returns `None` if the mechanism has no rows or more than
+/// [`ONE_PART`] rows, or if t and q are not a configuration of the mechanism.
 #[must_use]
 pub fn generic(mechanism: &Mechanism, t: f64, q: &[f64]) -> Option<Generic> {
     Some(Comparison::of(mechanism, t, q)?.found)

@@ -1,9 +1,12 @@
-//! A large set of joints on common cycles. The module determines its rank, and verdicts from random
-//! combinations of its left null space.
+//! Analysis of a large set of joints on common cycles. The module determines the rank of the rows
+//! of these joints, and a verdict on each joint. The columns of the matrix Z are a basis of the
+//! left null space of the rows. The module does not compute Z, because Z may be too large. The
+//! module computes the matrix `W = Z·Ω`, whose columns are random combinations of the columns of Z.
 //!
-//! The verdict on a joint uses only the rows of the joint in `W = Z·Ω`, as it uses only its rows of
-//! Z in a small mechanism. The cost does not depend on the degree of redundancy. Dependencies are
-//! reported if the dependent rows split into small sets of cycles.
+//! In a small mechanism, the verdict on a joint follows from the rows of Z that belong to the
+//! joint. In a large set, the verdict follows from the same rows of W. The number of columns of W
+//! does not depend on the degree of redundancy, so the cost does not depend on it either.
+//! Dependencies are reported if the dependent rows split into small sets of cycles.
 
 use crate::error::AnalysisError;
 use crate::judged::{Dependency, PartResults, ReactionVerdict};

@@ -374,10 +374,10 @@ pub(crate) const FALL: f64 = 4.0;
 /// missed. Test: `minima_of_corners_and_parabolas`.
 pub(crate) const NARROWING: f64 = 0.25;
 
-/// A sample is not regular if its smallest singular value is below this share of the best sample of
-/// the motion. Unit: share of the largest singular value. Too small: samples near a singular
-/// configuration count as regular. Too large: some motions have no regular samples. Test:
-/// `a_motion_near_a_singular_pose_has_regular_samples`.
+/// A sample of a motion is not regular if its σ_r is below `rank::NEARLY_REDUNDANT` and below this
+/// share of the largest σ_r of all samples. Unit: share of the largest singular value. Too small:
+/// samples near a singular configuration count as regular. Too large: some motions have no regular
+/// samples. Test: `a_motion_near_a_singular_pose_has_regular_samples`.
 pub(crate) const REGULAR_SAMPLE: f64 = 0.1;
 
 /// Number of intervals into which the surroundings of a minimum are divided again. The surroundings

@@ -33,7 +33,8 @@ pub enum Extent {
     Places(Places),
 }
 
-/// Selects those numbers of the whole mechanism that belong to a part; `None` selects all numbers.
+/// Returns the entries of `x` that have the given indices. If the indices are `None`, returns all
+/// entries of `x`.
 fn own<'a>(x: &'a [f64], places: Option<&[usize]>) -> Cow<'a, [f64]> {
     match places {
         None => Cow::Borrowed(x),
@@ -55,22 +56,23 @@ impl Extent {
         *self == Self::Whole
     }
 
-    /// Returns the number of a row of the part in the whole mechanism.
+    /// Returns the index in the whole mechanism of the row that has the index `own` in the part.
     #[must_use]
     pub fn row(&self, own: usize) -> usize {
         self.places().map_or(own, |p| p.rows[own])
     }
 
-    /// Returns the number of a row of the whole mechanism in the part, or `None` if the row belongs
-    /// to another part.
+    /// Returns the index in the part of the row that has the index `row` in the whole mechanism.
+    /// Returns `None` if the row belongs to another part.
     #[must_use]
     pub fn own_row(&self, row: usize) -> Option<usize> {
         self.places()
             .map_or(Some(row), |p| p.rows.binary_search(&row).ok())
     }
 
-    /// Returns those listed rows of the whole mechanism that belong to the part. The rows are
-    /// numbered in the part and have the order of the list.
+    /// Returns the listed rows that belong to the part. The list contains indices of rows in the
+    /// whole mechanism. The result contains the indices of the same rows in the part, in the order
+    /// of the list.
     pub(crate) fn own_rows(&self, listed: &ListedRows<'_>) -> Vec<usize> {
         match self.places() {
             None => listed.rows.to_vec(),
@@ -78,35 +80,36 @@ impl Extent {
         }
     }
 
-    /// Converts the number of a joint or drive from the part to the whole mechanism.
+    /// Returns the index in the whole mechanism of the joint or drive that has the index `own` in
+    /// the part.
     #[must_use]
     pub fn group(&self, own: usize) -> usize {
         self.places().map_or(own, |p| p.groups[own])
     }
 
-    /// Converts the number of a joint or drive from the whole mechanism to the part. Returns `None`
-    /// if the joint or drive belongs to another part.
+    /// Returns the index in the part of the joint or drive that has the index `group` in the whole
+    /// mechanism. Returns `None` if the joint or drive belongs to another part.
     #[must_use]
     pub fn own_group(&self, group: usize) -> Option<usize> {
         self.places()
             .map_or(Some(group), |p| p.groups.binary_search(&group).ok())
     }
 
-    /// Returns the joints and drives of the whole mechanism that belong to the part. The list is
+    /// Returns the joints and drives of the part, as indices in the whole mechanism. The list is
     /// empty if the part is the whole mechanism.
     pub(crate) fn groups(&self) -> &[usize] {
         self.places().map_or(&[], |p| &p.groups)
     }
 
-    /// Returns the number of a body of the whole mechanism in the part, or `None` if no joint of
-    /// the part acts on the body.
+    /// Returns the index in the part of the body that has the index `body` in the whole mechanism.
+    /// Returns `None` if no joint of the part acts on the body.
     #[must_use]
     pub fn own_body(&self, body: usize) -> Option<usize> {
         self.places()
             .map_or(Some(body), |p| p.bodies.binary_search(&body).ok())
     }
 
-    /// Returns the number of a body of the part in the whole mechanism.
+    /// Returns the index in the whole mechanism of the body that has the index `own` in the part.
     #[must_use]
     pub fn body(&self, own: usize) -> usize {
         self.places().map_or(own, |p| p.bodies[own])
@@ -130,8 +133,8 @@ impl Extent {
         own(lambda, self.places().map(|p| &p.rows[..]))
     }
 
-    /// Copies the numbers of the rows of the part to a vector for all `rows` rows of the whole
-    /// mechanism.
+    /// Returns a vector with one value for each of the `rows` rows of the whole mechanism. `x`
+    /// contains the values of the rows of the part. The values of all other rows are zero.
     pub(crate) fn spread(&self, x: &[f64], rows: usize) -> Vec<f64> {
         let mut all = vec![0.0; rows];
         for (k, x) in x.iter().enumerate() {

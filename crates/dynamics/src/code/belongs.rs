@@ -48,14 +48,15 @@ pub enum CodeMismatch {
         /// Rows of the run, from 0.
         expected: Vec<usize>,
     },
-    /// The functions of time in the code have other break times.
+    /// The break times of the code differ from the break times of the mechanism. At a break time, a
+    /// derivative of a function of time jumps.
     #[error("the code `{name}` has break times at {found:?} s, the mechanism at {expected:?} s")]
     BreakTimes {
         /// Name of the code.
         name: String,
-        /// Break times in the code (s).
+        /// Break times of the functions of time in the code (s).
         found: Vec<f64>,
-        /// Break times in the mechanism (s).
+        /// Break times of the functions of time in the mechanism (s).
         expected: Vec<f64>,
     },
     /// A value differs.

@@ -1,13 +1,13 @@
-//! The computations that a decision saves, as a count.
+//! The amount of work that a run omits because of a decision.
 
 use std::fmt;
 
-/// A number of items that are omitted.
+/// Number of items that a run omits because of a decision.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Saving {
     /// Number of omitted items.
     pub left_out: u64,
-    /// Number of all items.
+    /// Number of items without the decision.
     pub of: u64,
     /// Kind of the items.
     pub what: Cost,

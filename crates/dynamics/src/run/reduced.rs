@@ -12,13 +12,14 @@
 //! | accelerations | `M·da + Cᵀ·dλ = ∂(Q − Cᵀ·λ)/∂q·dq + ∂Q/∂v·dv`, `C·da = −∂(C·a − Γ)/∂q·dq + ∂Γ/∂v·dv` |
 //!
 //! The system `(σ·I − D·S)·x = r` needs only a factorisation of the order of w, `(σ·I − S·D)·x_w =
-//! r_w`. The dependent entries of x are only estimates for completions. These entries are therefore
-//! computed from x_w like the dependent entries of dq and dv. The exact solution, `σ·x = r +
-//! D·x_w`, is not used for these entries. The exact solution would include stiff forces in the
-//! dependent directions, amplified by the lever arms of the mechanism. The method would then fail
-//! to converge although w has converged. No pose changes along the normals of the coordinates, so f
-//! does not depend on y along these normals. The exact solution `σ·x = r` is used along the
-//! normals.
+//! r_w`. The dependent entries of x need not be exact, because each completion of a state computes
+//! the dependent entries of y from w by iteration. At most, the initial values of this iteration
+//! depend on the dependent entries of x. The dependent entries of x are computed from x_w in the
+//! same way as the dependent entries of dq and dv. The exact solution, `σ·x = r + D·x_w`, is not
+//! used for these entries. The exact solution would include stiff forces in the dependent
+//! directions, amplified by the lever arms of the mechanism. The method would then fail to converge
+//! although w has converged. No pose changes along the normals of the coordinates, so f does not
+//! depend on y along these normals. The exact solution `σ·x = r` is used along the normals.
 
 use linalg::{Lu, Matrix};
 use model::{Derivatives, Mechanism, System};

@@ -24,9 +24,10 @@ impl<S: Bodies> Check<'_, OfConstraint<S>> {
         self.at(kernel, &self.case.motions[0])
     }
 
-    /// Returns the reference point. The result is `None` if a body that should touch a plane is
-    /// parallel to the plane. In this case there is no contact point, and the reference point
-    /// contains a division by zero. In all other cases, NaN is compared like a value, and the check
+    /// Returns the reference point of the constraint. A constraint may require that a wheel touches
+    /// a plane. If the wheel is parallel to the plane, no single contact point exists. The formula
+    /// of the reference point then divides by zero, and the result of this function is `None`. For
+    /// a constraint without a plane, a reference point that contains NaN is returned, and the check
     /// fails.
     fn place_of_reaction(&self) -> Option<Block> {
         let place = self.first(Kernel::Place);

@@ -5,8 +5,8 @@ use report::figures::{self, Extremes};
 use super::document::{StressFamily, StressRow};
 
 /// Returns the figure of all families with a varied quantity; the text is empty if there are no
-/// such families. If all cases of a panel have the same bound, a dashed line shows this bound.
-/// Error messages have no point.
+/// such families. If all cases of a panel have the same bound, a dashed line shows this bound. A
+/// case that ends with an error message has no point in the figure.
 #[must_use]
 pub fn extremes(families: &[StressFamily]) -> String {
     let panels: Vec<Extremes<'_>> = families.iter().flat_map(panels).collect();

@@ -73,8 +73,9 @@ impl Journal {
         Ok(journal)
     }
 
-    /// Records that these runs start. The line is not synchronised with the disk, because it is
-    /// needed only after a crash of the process, and not after a failure of the machine.
+    /// Writes a line which states that the given runs start. The line is not synchronised with the
+    /// disk, because it is needed only after a crash of the process, and not after a failure of the
+    /// machine.
     ///
     /// # Errors
     /// [`JournalError::File`]: the journal could not be written.
@@ -82,7 +83,8 @@ impl Journal {
         self.line(&Entry::Begin(runs.to_vec()).text(), SyncWhen::Seldom)
     }
 
-    /// Records that a run starts, and that this process makes no other run at the same time.
+    /// Writes a line which states that a run starts, and that this process makes no other run at
+    /// the same time.
     ///
     /// # Errors
     /// [`JournalError::File`]: the journal could not be written.
@@ -90,7 +92,7 @@ impl Journal {
         self.line(&Entry::Alone(run).text(), SyncWhen::Seldom)
     }
 
-    /// Adds a finished run.
+    /// Writes a line with the results of a finished run.
     ///
     /// # Errors
     /// [`JournalError::File`]: the journal could not be written.
@@ -99,7 +101,7 @@ impl Journal {
         self.append_cells(&cells)
     }
 
-    /// Adds a finished run whose row was read from another file.
+    /// Writes a line with the results of a finished run that were read from another file.
     pub(super) fn append_cells(&mut self, cells: &[Cell]) -> Result<(), JournalError> {
         let text = record(cells).map_err(FileError::refused("write", &self.path))?;
         self.line(&text, SyncWhen::Seldom)

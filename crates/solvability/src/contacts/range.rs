@@ -132,7 +132,9 @@ impl PermittedEnd {
 }
 
 impl PermittedReactions<'_, '_> {
-    /// Returns the range of a number, with its contribution from each part.
+    /// Returns the range of a number over the loads that contacts permit. The number is the sum of
+    /// linear forms of the multipliers. `forms` contains each linear form with the index of the
+    /// part to which the form belongs.
     pub(super) fn range(
         &self,
         forms: &[(usize, &LinearForm)],

@@ -10,8 +10,8 @@ use super::outcome::JudgedStart;
 /// above the distance times this factor lowers the rank.
 pub const BEYOND_DOUBT: f64 = 3.0;
 
-/// If the distance of the data from a lower rank exceeds the tolerance by this factor, all results
-/// must be decided.
+/// If the distance of the data from a lower rank is at least the tolerance times this factor, the
+/// program must decide all results.
 const FAR: f64 = 30.0;
 
 /// A tolerance, and the distance of the data from a lower rank, in the same unit.
@@ -37,7 +37,8 @@ pub enum Left {
 }
 
 impl Distance {
-    /// Whether the data are so far from a lower rank that all results must be decided.
+    /// Returns whether the distance of the data from a lower rank is at least `FAR` times the
+    /// tolerance. If so, the program must decide all results.
     #[must_use]
     pub fn is_far(self) -> bool {
         self.to_lower_rank >= FAR * self.tolerance

@@ -40,8 +40,8 @@ fn posed(suite: Suite, seed: u64, drawn: u64) -> (&'static str, Posed) {
     (name, posed)
 }
 
-/// Returns the results for all scenes of one drawing. The list is empty if a drawing near a lower
-/// rank is redundant by chance.
+/// Returns the results for all scenes of one drawing. For `Suite::FullRank`, the drawing must have
+/// full rank. The list is empty if the random numbers give a drawing with redundant rows.
 #[must_use]
 pub fn outcomes(suite: Suite, seed: u64, drawn: u64) -> Vec<Outcome> {
     if suite == Suite::RoundedInSpace {

@@ -21,10 +21,12 @@ const LISTED: usize = 8;
 /// Number of scenes of each family, variant and kind that are stored as files.
 const KEPT: usize = 2;
 
-/// Fewer than one scene in this number may be undecided if all digits are written.
+/// Limit for scenes without a tolerance in which all results must be decided. The share of
+/// undecided scenes must be less than one divided by this number.
 const UNDECIDED: usize = 1000;
 
-/// With few digits, at most one scene in this number may be undecided if a lower rank is far away.
+/// Limit for scenes with a tolerance in which all results must be decided. The share of undecided
+/// scenes must be at most one divided by this number.
 const UNDECIDED_WITHIN: usize = 100;
 
 /// The scenes of a campaign.
@@ -37,13 +39,14 @@ pub enum Suite {
     Space,
     /// Scenes of the plane, converted to space.
     Lifted,
-    /// Degenerate drawings in the plane with few digits.
+    /// Degenerate drawings in the plane, with numbers rounded to 3 … 16 significant digits.
     #[value(skip)]
     RoundedInPlane,
-    /// Mechanisms in space with few digits.
+    /// Mechanisms in space, with numbers rounded to 3 … 16 significant digits.
     #[value(skip)]
     RoundedInSpace,
-    /// Drawings of full rank near a lower rank.
+    /// Drawings in the plane that have full rank, but for which a small change of the data lowers
+    /// the rank.
     #[value(skip)]
     FullRank,
 }

@@ -57,14 +57,14 @@ pub struct Finding {
 /// Quantities that are counted.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Count {
-    /// Mechanisms that ran to their end.
+    /// Mechanisms whose run reached the end time.
     Ran,
-    /// Runs that stopped, and for which the configuration is singular or an independent step also
-    /// finds no continuation.
+    /// Runs that stopped before the end time for a valid reason: the configuration is near a
+    /// singular configuration, or an independent integration also finds no continuation.
     Stopped,
-    /// Runs that reached the limit of steps.
+    /// Runs that stopped at the maximum number of steps.
     Cut,
-    /// Mechanisms that are rejected and do not move.
+    /// Mechanisms that are rejected, and for which an independent computation also finds no motion.
     DoesNotMove,
     /// Mechanisms that are rejected at a singular configuration.
     SingularStart,
@@ -73,7 +73,7 @@ pub enum Count {
     NoFinite,
     /// Mechanisms that are rejected because the given velocities are impossible.
     NoVelocities,
-    /// Mechanisms that are rejected because of the text.
+    /// Mechanisms that are rejected because the text of the scene has an error.
     NoScene,
     /// Mechanisms with redundant rows.
     Redundant,

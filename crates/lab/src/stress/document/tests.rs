@@ -75,7 +75,8 @@ fn a_table_has_a_line_for_each_case() {
     );
 }
 
-/// Points outside the range of the axis are drawn at the edge. Error messages have no points.
+/// Points outside the range of the axis are drawn at the edge. A case that ends with an error
+/// message has no point.
 #[test]
 fn a_figure_has_a_point_for_each_worst_answer() {
     let mut family = document().families.remove(0);

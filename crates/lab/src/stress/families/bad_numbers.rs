@@ -1,5 +1,7 @@
-//! Replaces every number of a scene by NaN and infinity. Numbers at the limits of the format may be
-//! rejected but must not cause NaN.
+//! Cases in which one number of a scene is replaced, for each number of the scene. If the new
+//! number is NaN or infinite, the program must reject the scene. If the new number is finite, such
+//! as ±1e308 or 0, the program may reject the scene. If the program accepts the scene, the first
+//! row of the motion must be finite.
 
 use std::ops::ControlFlow;
 
@@ -154,7 +156,8 @@ fn cases() -> Vec<Case> {
     cases
 }
 
-/// Returns cases for the values of a description that was not read from a scene.
+/// Returns cases for the values of a description that a Rust program builds without the text of a
+/// scene.
 fn fields() -> Vec<Case> {
     type Set = fn(&mut Description, f64);
     let fields: [(&str, Set); 6] = [
@@ -208,7 +211,7 @@ fn fields() -> Vec<Case> {
     cases
 }
 
-/// Returns the text with another number at a position.
+/// Returns the text of the scene with the given number at this place.
 fn with(place: &Place, number: &str) -> String {
     let mut text = SCENE.to_owned();
     text.replace_range(place.span.clone(), number);

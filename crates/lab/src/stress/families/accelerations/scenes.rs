@@ -19,8 +19,9 @@ const LINKS: usize = 6;
 /// A mechanism at its initial state.
 pub(super) struct Scene {
     pub(super) name: String,
-    /// The extreme quantity, and its power of ten.
+    /// Name of the extreme quantity: the power of ten of the masses or of the lengths.
     pub(super) varied: &'static str,
+    /// Value of the extreme quantity.
     pub(super) value: f64,
     pub(super) description: Description,
     /// The expected words of the error message, if the rounding of the data to 53 bits already
