@@ -1,8 +1,12 @@
 //! A loop of `measure.py` in Rust: `cargo run --release --example loops -- SCENE text 1000` in
-//! `python`. Analyses the scene this many times, from its `text` or after it was `read` once.
+//! `python`. The loop answers the question `analyze` this many times, from the `text` of the scene
+//! or after the scene was `read` once.
 
+use pfaff::memory::Budget;
 use pfaff::model::Registry;
-use pfaff::{RunOptions as Overrides, Study, StudyError};
+use pfaff::question::{Control, Question};
+use pfaff::questions::analyze::Analyze;
+use pfaff::start::Start;
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
@@ -11,19 +15,31 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     };
     let text = std::fs::read_to_string(path)?;
     let registry = Registry::standard();
-    let read = || Study::read("robot.toml", &text, &registry, &Overrides::default());
-    let judged = |study: &Study| {
-        let start = study.analyse(0.0, None)?;
-        Ok::<_, StudyError>(start.verdict("W3")?.wrench.verdict.is_unique())
+    let budget = Budget {
+        limit: None,
+        option: "max_memory",
     };
-    let study = read()?;
+    let read = || Start::new("robot.toml".to_owned(), text.clone(), &registry, budget);
+    let is_unique = |start: &Start<'_>| {
+        let answer = Analyze::default().answer(start, &Control::quiet());
+        let answer = answer.map_err(|e| e.document().error)?;
+        let mut reactions = answer.document.reactions.iter();
+        let found = reactions.find(|reaction| reaction.name == "W3");
+        found
+            .map(|reaction| reaction.wrench.verdict == "unique")
+            .ok_or("the robot has no W3".to_owned())
+    };
+    let start = read();
+    is_unique(&start)?;
     for _ in 0..times.parse()? {
-        let is_unique = if what == "text" {
-            judged(&read()?)?
+        let own;
+        let start = if what == "text" {
+            own = read();
+            &own
         } else {
-            judged(&study)?
+            &start
         };
-        assert!(!is_unique, "W3 of the robot is not unique");
+        assert!(!is_unique(start)?, "W3 of the robot is not unique");
     }
     Ok(())
 }

@@ -36,10 +36,20 @@ pub fn write_json(mut out: impl Write, document: &impl Serialize) -> io::Result<
     // Control characters and characters that change the direction of text occur only in strings.
     // They are written as escape codes, which a terminal does not interpret.
     let is_obeyed = |c: char| matches!(c, '\u{7f}'..='\u{9f}' | '\u{61c}' | '\u{200e}' | '\u{200f}' | '\u{2028}'..='\u{202e}' | '\u{2066}'..='\u{2069}');
-    let mut written = 0;
-    for (at, c) in text.char_indices().filter(|(_, c)| is_obeyed(*c)) {
-        write!(out, "{}\\u{:04x}", &text[written..at], u32::from(c))?;
-        written = at + c.len_utf8();
+    // Most characters are bytes below all of these.
+    let is_candidate = |byte: &u8| *byte >= 0x7f;
+    let (mut written, mut at) = (0, 0);
+    while let Some(step) = text.as_bytes()[at..].iter().position(is_candidate) {
+        at += step;
+        let Some(c) = text[at..].chars().next() else {
+            break;
+        };
+        let next = at + c.len_utf8();
+        if is_obeyed(c) {
+            write!(out, "{}\\u{:04x}", &text[written..at], u32::from(c))?;
+            written = next;
+        }
+        at = next;
     }
     writeln!(out, "{}", &text[written..])?;
     out.flush()
