@@ -181,6 +181,17 @@ pub enum MotionFault {
         /// The joints that open.
         joints: Vec<String>,
     },
+    /// Contacts that grip cannot all hold any more.
+    #[error(
+        "at t = {t} s {who} for every sharing of the loads; end the run before, increase `grip`, or leave it out to \
+         compute the motion of contacts that never slip",
+        t = rounded(*time), who = clause(joints, ["slips", "slip"]))]
+    Slips {
+        /// Time (s).
+        time: f64,
+        /// The contacts that slip.
+        joints: Vec<String>,
+    },
     /// Newton's method for dependent coordinates converged to a configuration far away. This
     /// configuration belongs to another branch or to another revolution.
     #[error(
@@ -288,7 +299,7 @@ impl MotionFault {
             Self::SingularPassage { .. } => const { Code::new(422) },
             Self::NoRows { .. } => const { Code::new(423) },
             Self::NoConfiguration { .. } => const { Code::new(428) },
-            Self::Opens { .. } => const { Code::new(429) },
+            Self::Opens { .. } | Self::Slips { .. } => const { Code::new(429) },
             Self::Saddle { .. } => const { Code::new(424) },
             Self::Interrupted { .. } => const { Code::new(8) },
         }

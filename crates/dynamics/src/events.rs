@@ -65,6 +65,8 @@ pub enum EventKind {
     Impulse,
     /// One-sided joints open; the run ends.
     Lifts,
+    /// Contacts that grip slip for every sharing of the loads; the run ends.
+    Slips,
     /// Generated code became unreliable. The equations are interpreted from this time on.
     CodeLeft,
     /// Generated code is used again.
@@ -77,7 +79,7 @@ impl EventKind {
     pub fn cuts(self) -> bool {
         match self {
             Self::RowsExchanged | Self::SingularPassage | Self::Impulse => true,
-            Self::Lifts | Self::CodeLeft | Self::CodeUsed => false,
+            Self::Lifts | Self::Slips | Self::CodeLeft | Self::CodeUsed => false,
         }
     }
 
@@ -89,6 +91,7 @@ impl EventKind {
             Self::SingularPassage => "singular-passage",
             Self::Impulse => "impulse",
             Self::Lifts => "lifts",
+            Self::Slips => "slips",
             Self::CodeLeft => "code-left",
             Self::CodeUsed => "code-used",
         }

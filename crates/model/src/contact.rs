@@ -67,10 +67,8 @@ impl ContactLimits {
     /// States what the joint cannot do; `None` if it can do everything.
     #[must_use]
     pub fn in_words(&self) -> Option<String> {
-        let side = self.open_side.map(|side| match side {
-            OpenSide::Positive => "one-sided (gap ≥ 0)".to_owned(),
-            OpenSide::Negative => "one-sided (gap ≤ 0)".to_owned(),
-        });
+        // The sign of the gap depends on the order of points, and says nothing to a reader.
+        let side = self.open_side.map(|_| "one-sided".to_owned());
         let grip = self.grip.as_ref().map(|grip| {
             let load = match &grip.load {
                 GripLoad::Own => "its own load".to_owned(),

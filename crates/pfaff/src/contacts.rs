@@ -84,22 +84,23 @@ fn fill(
     answer.impossible = proofs
         .flat_map(|proof| answer::documents(&proof.weights, layout))
         .collect();
-    let motions = impossible.iter().filter(|proof| proof.is_opening());
+    let mut opening = impossible
+        .iter()
+        .filter(|proof| proof.is_opening())
+        .peekable();
     let (t, q) = (of.analysis.time, &of.state.q[..]);
-    let motions: Vec<String> = motions
-        .map(|proof| tips((of.mechanism, q), t, proof))
-        .collect();
-    if !motions.is_empty() {
-        let mut words = motions.join("; ");
-        match lifted(of.mechanism, (t, q, &of.state.v[..])) {
-            Ok(found) => {
-                let name = |id: ConstraintId| layout.groups[id.0].name.clone();
-                answer.lifts = found.joints.iter().map(|(id, _)| name(*id)).collect();
-                let gaps = found.joints.iter().map(|(id, a)| (name(*id), *a));
-                answer.gap_accelerations = ByName(gaps.collect());
-            }
-            Err(e) => words += &format!("; which joints open is not decided: {e}"),
+    if opening.peek().is_some() {
+        let found = lifted(of.mechanism, (t, q, &of.state.v[..]));
+        let lifts = found.as_ref().map_or(&[][..], |found| &found.joints);
+        let motions = opening.map(|proof| tips((of.mechanism, q), t, proof, lifts));
+        let mut words = motions.collect::<Vec<_>>().join("; ");
+        if let Err(e) = &found {
+            words += &format!("; which joints open is not decided: {e}");
         }
+        let name = |id: ConstraintId| layout.groups[id.0].name.clone();
+        answer.lifts = lifts.iter().map(|(id, _)| name(*id)).collect();
+        let gaps = lifts.iter().map(|(id, a)| (name(*id), *a));
+        answer.gap_accelerations = ByName(gaps.collect());
         answer.tips = Some(words);
     }
     let grips = found.grips()?;

@@ -336,7 +336,7 @@ impl Study {
             }
         }
         let held = there.held_at(found.time);
-        held.check_contacts((0.0, held.state_at(0.0)?), "the equilibrium")?;
+        held.check_contacts((0.0, held.state_at(0.0)?), "the position found")?;
         Ok((found, there))
     }
 

@@ -243,6 +243,10 @@ pub(crate) fn motion(map: &SourceMap, error: &MotionError) -> Diagnostic {
                     .map(|name| element_key(map, name, &["one_sided"]));
                 (first.unwrap_or(0..0), "opens")
             }
+            MotionFault::Slips { joints, .. } => {
+                let first = joints.first().map(|name| element_key(map, name, &["grip"]));
+                (first.unwrap_or(0..0), "slips")
+            }
             MotionFault::Massless { body, .. } => {
                 let entry = map.body(body);
                 let span = entry.map(|entry| entry.first_of(&["mass"]));

@@ -1,4 +1,4 @@
-//! Instants at which supports open during a run.
+//! Instants at which supports open, or contacts slip, during a run.
 
 use std::ops::ControlFlow;
 
@@ -22,6 +22,11 @@ struct Opened {
 
 /// Returns the end of a run in which joints open.
 fn opened(text: &str, t_end: f64) -> Opened {
+    ended(text, t_end, EventKind::Lifts)
+}
+
+/// Returns the end of a run with this event.
+fn ended(text: &str, t_end: f64, kind: EventKind) -> Opened {
     let study = study(text);
     let options = MotionOptions {
         rtol: 1e-12,
@@ -38,8 +43,12 @@ fn opened(text: &str, t_end: f64) -> Opened {
         Ok(summary) => panic!("nothing opens until {} s\n{text}", summary.t),
         Err(failure) => failure,
     };
-    let MotionError::Fault(MotionFault::Opens { time, joints }) = &failure.error else {
-        panic!("{failure}\n{text}");
+    let (time, joints) = match (&failure.error, kind) {
+        (MotionError::Fault(MotionFault::Opens { time, joints }), EventKind::Lifts)
+        | (MotionError::Fault(MotionFault::Slips { time, joints }), EventKind::Slips) => {
+            (time, joints)
+        }
+        _ => panic!("{failure}\n{text}"),
     };
     // The error, the summary, the last row and the event have one time.
     // An impulse is just after the time of its row.
@@ -48,11 +57,7 @@ fn opened(text: &str, t_end: f64) -> Opened {
         end == last.0 && [end, end.next_up()].contains(time),
         "{end} {time}"
     );
-    let events = failure
-        .summary
-        .events
-        .iter()
-        .filter(|e| e.kind == EventKind::Lifts);
+    let events = failure.summary.events.iter().filter(|e| e.kind == kind);
     let times: Vec<f64> = events.map(|e| e.time).collect();
     assert_eq!(times, [*time]);
     let message = failure.to_string();
@@ -280,5 +285,122 @@ fn an_impulse_does_not_pull_on_a_stone() {
         let study = study(&platform(values));
         let run = study.run(&MotionOptions::to(1.0), |_| Ok(ControlFlow::Continue(())));
         assert!(run.is_ok_and(|summary| summary.t == 1.0), "{values}");
+    }
+}
+
+/// A sled of 19.62 N on two shoes that a horizontal force pulls at the height of the floor. Each
+/// shoe presses with 9.81 N.
+fn sled(force: &str, [front, rear]: [f64; 2]) -> String {
+    let foot = |name: &str, x: f64, grip: f64| {
+        format!(
+            "{{ name = \"{name}\", type = \"point-on-line\", body = \"sled\", at = [{x:?}, 0.0], line = [[0.0, 0.0], [1.0, 0.0]], \
+             one_sided = \"pushes\", toward = [0.0, 1.0] }},\n\
+             {{ name = \"{name} shoe\", type = \"knife-edge\", body = \"sled\", at = [{x:?}, 0.0], normal = [1.0, 0.0], \
+             grip = {grip:?}, load = \"{name}\" }},\n"
+        )
+    };
+    format!(
+        "scene = {{ name = \"sled\", space = \"plane\", gravity = [0.0, -9.81] }}\n\
+         body = [{{ name = \"sled\", mass = 2.0, inertia = 0.1, position = [0.0, 0.5] }}]\n\
+         joint = [\n{}{}]\n\
+         force = [{{ name = \"rope\", type = \"point-force\", body = \"sled\", at = [0.0, 0.0], force = [{force}, 0.0] }}]\n",
+        foot("front", 0.4, front),
+        foot("rear", -0.4, rear)
+    )
+}
+
+/// The shoes share the force in any ratio. They slip for every sharing when the force is the sum of
+/// their frictions. A force that swings exceeds it for a short time within a long step.
+#[test]
+fn shoes_slip_when_the_force_is_the_sum_of_their_frictions() {
+    let frictions = [0.2, 0.4];
+    let most = 9.81 * (frictions[0] + frictions[1]);
+    let grows = "{ type = \"polynomial\", coefficients = [0.0, 20.0] }";
+    let found = ended(&sled(grows, frictions), 2.0, EventKind::Slips);
+    let time = most / 20.0;
+    assert!((found.time - time).abs() <= INSTANT, "{}", found.time);
+    assert_eq!(found.joints, ["front shoe", "rear shoe"]);
+    let constant = |force: f64| sled(&format!("{force:?}"), frictions);
+    assert_eq!(
+        ended(&constant(1.001 * most), 2.0, EventKind::Slips).time,
+        0.0
+    );
+    let swings = |amplitude: f64| {
+        sled(
+            &format!(
+                "{{ type = \"harmonic\", amplitude = {amplitude:?}, omega = 7.0, phase = 0.0, offset = 0.0 }}"
+            ),
+            frictions,
+        )
+    };
+    let found = ended(&swings(1.2 * most), 10.0, EventKind::Slips);
+    let time = (1.0_f64 / 1.2).asin() / 7.0;
+    assert!(
+        (found.time - time).abs() <= INSTANT,
+        "{} {time}",
+        found.time
+    );
+    for holds in [constant(0.999 * most), swings(0.999 * most)] {
+        let study = study(&holds);
+        let run = study.run(&MotionOptions::to(2.0), |_| Ok(ControlFlow::Continue(())));
+        assert!(run.is_ok_and(|summary| summary.t == 2.0 && summary.events.is_empty()));
+    }
+}
+
+/// Two knife edges, each pressed with 40 N, hold a cart along and across. The edge along the larger
+/// component of the force slips when this component is 0.5·40 N.
+#[test]
+fn a_pressed_edge_slips_at_its_own_limit() {
+    let (load, friction) = (40.0, 0.5);
+    for angle in [0.0_f64, 0.3, 1.2] {
+        let [x, y] = [angle.cos(), angle.sin()].map(|x| 20.0 * x);
+        let rate = |x: f64| format!("{{ type = \"polynomial\", coefficients = [0.0, {x:?}] }}");
+        let text = format!(
+            "scene = {{ name = \"cart\", space = \"plane\" }}\n\
+             body = [{{ name = \"cart\", mass = 2.0, inertia = 0.1 }}]\n\
+             joint = [{{ name = \"along\", type = \"knife-edge\", body = \"cart\", at = [0.0, 0.0], normal = [1.0, 0.0], \
+             grip = {friction:?}, load = {load:?} }},\n\
+             {{ name = \"across\", type = \"knife-edge\", body = \"cart\", at = [0.0, 0.0], normal = [0.0, 1.0], \
+             grip = {friction:?}, load = {load:?} }}]\n\
+             force = [{{ name = \"push\", type = \"point-force\", body = \"cart\", at = [0.0, 0.0], force = [{}, {}] }}]\n",
+            rate(x),
+            rate(y)
+        );
+        let found = ended(&text, 5.0, EventKind::Slips);
+        let time = friction * load / x.max(y);
+        assert!(
+            (found.time - time).abs() <= INSTANT,
+            "{angle}: {}",
+            found.time
+        );
+        assert_eq!(found.joints, [if x > y { "along" } else { "across" }]);
+    }
+}
+
+/// A force at the centre of a solid ball rolls it; the floor takes 2/7 of the force. The ball slips
+/// when this share is 0.3 of its weight, in any direction.
+#[test]
+fn a_ball_slips_in_any_direction_at_the_same_force() {
+    let (mass, radius, friction) = (2.0, 0.2, 0.3);
+    let time = 3.5 * friction * mass * 9.81 / 20.0;
+    for angle in [0.0_f64, 0.1, 0.7, 2.0] {
+        let rate = |x: f64| format!("{{ type = \"polynomial\", coefficients = [0.0, {x:?}] }}");
+        let inertia = 0.4 * mass * radius * radius;
+        let text = format!(
+            "scene = {{ name = \"ball\", space = \"spatial\", gravity = [0, 0, -9.81] }}\n\
+             body = [{{ name = \"ball\", mass = {mass:?}, inertia = [{inertia:?}, {inertia:?}, {inertia:?}], position = [0, 0, {radius:?}] }}]\n\
+             joint = [{{ name = \"floor\", type = \"ball\", body = \"ball\", point = [0, 0, 0], radius = {radius:?}, \
+             one_sided = \"pushes\", grip = {friction:?} }}]\n\
+             force = [{{ name = \"push\", type = \"point-force\", body = \"ball\", at = [0, 0, {radius:?}], force = [{}, {}, 0] }}]\n",
+            rate(20.0 * angle.cos()),
+            rate(20.0 * angle.sin()),
+        );
+        let found = ended(&text, 2.0, EventKind::Slips);
+        assert!(
+            (found.time - time).abs() <= INSTANT,
+            "{angle}: {} {time}",
+            found.time
+        );
+        assert_eq!(found.joints, ["floor"]);
     }
 }

@@ -63,7 +63,7 @@ pub(super) fn opening(
             continue;
         }
         let found = step.ode().closure(t, &mut y, k == count)?;
-        if !found.opening.is_empty() {
+        if found.is_clear() {
             first = Some((t, found));
             break;
         }
@@ -81,7 +81,7 @@ pub(super) fn opening(
         if step.interpolate_accurately(middle, &mut y).is_err() {
             break;
         }
-        if step.ode().closure(middle, &mut y, false)?.is_open {
+        if step.ode().closure(middle, &mut y, false)?.is_lost {
             open = middle;
         } else {
             closed = middle;
@@ -96,11 +96,11 @@ pub(super) fn opening(
     if step.interpolate_accurately(after, &mut y).is_ok() {
         step.ode().closure(after, &mut y, after == t1)?;
     }
-    let joints = step.ode().opened((after, &y), &found.opening);
+    let fault = step.ode().fault((after, &y), closed, &found);
     if step.interpolate_accurately(closed, &mut y).is_err() {
         y.copy_from_slice(step.y0());
     }
-    let fault = step.ode().ends_open(closed, joints);
+    step.ode().note(closed, &fault);
     Ok(Some(Opening {
         t: closed,
         y,
@@ -118,11 +118,12 @@ pub(super) fn opening_at_start(
     }
     let mut y = y.to_vec();
     let found = equations.closure(t, &mut y, false)?;
-    if found.opening.is_empty() {
+    if !found.is_clear() {
         return Ok(None);
     }
-    let joints = equations.opened((t, &y), &found.opening);
-    Ok(Some(equations.ends_open(t, joints)))
+    let fault = equations.fault((t, &y), t, &found);
+    equations.note(t, &fault);
+    Ok(Some(fault))
 }
 
 impl RunEquations<'_> {
@@ -152,12 +153,17 @@ impl RunEquations<'_> {
         self.motion.solve_factored(v, &mut a)?;
         self.motion.multipliers_for(&a, &mut multipliers)?;
         let loads = max_abs(&self.motion.equations.at.s.force);
-        self.closure_for(&multipliers, loads)
+        self.closure_for(&multipliers, loads, false)
     }
 
-    /// Decides whether these multipliers, with any self-stress, press on all one-sided joints. The
-    /// rows must be factored. `size` is the size of the loads.
-    fn closure_for(&mut self, multipliers: &[f64], size: f64) -> Result<Closure, MotionFault> {
+    /// Decides whether contacts stay closed and hold for these multipliers with any self-stress.
+    /// The rows are factored. `size` is the size of the loads. Impulses do not make contacts slip.
+    fn closure_for(
+        &mut self,
+        multipliers: &[f64],
+        size: f64,
+        are_impulses: bool,
+    ) -> Result<Closure, MotionFault> {
         let mechanism = self.motion.mechanism();
         let equations = &mut self.motion.equations;
         let mut dependencies = Vec::new();
@@ -167,13 +173,17 @@ impl RunEquations<'_> {
         let Some(contacts) = contacts else {
             return Ok(Closure::default());
         };
-        if contacts.joints.are_pressed(mechanism, &at.s, multipliers) {
+        if contacts.joints.are_kept(mechanism, &at.s, multipliers) {
             return Ok(Closure::default());
         }
         rows.all_dependencies(at, &mut dependencies)?;
         let state = (mechanism, &at.s);
         let permitted = (contacts.joints).permitted(state, (multipliers, size), &dependencies);
-        Ok(permitted.closure())
+        Ok(if are_impulses {
+            permitted.opening()
+        } else {
+            permitted.closure()
+        })
     }
 
     /// Ends the run if an impulse with these multipliers must pull on a one-sided joint.
@@ -184,12 +194,14 @@ impl RunEquations<'_> {
         if !self.has_contacts() {
             return Ok(());
         }
-        let found = self.closure_for(multipliers, max_abs(multipliers))?;
-        if found.opening.is_empty() {
+        let found = self.closure_for(multipliers, max_abs(multipliers), true)?;
+        if !found.is_clear() {
             return Ok(());
         }
         let joints = self.names(&found.opening);
-        Err(self.ends_open(t, joints))
+        let fault = MotionFault::Opens { time: t, joints };
+        self.note(t, &fault);
+        Err(fault)
     }
 
     fn names(&self, ids: &[ConstraintId]) -> Vec<String> {
@@ -197,19 +209,26 @@ impl RunEquations<'_> {
         ids.iter().map(|id| groups[id.0].name.clone()).collect()
     }
 
-    /// Returns the names of the joints that open at a state.
-    fn opened(&self, (t, y): (f64, &[f64]), opening: &[ConstraintId]) -> Vec<String> {
+    /// Returns the error that ends the run at this time, for contacts that are lost at a state.
+    fn fault(&self, (t, y): (f64, &[f64]), time: f64, found: &Closure) -> MotionFault {
+        if found.opening.is_empty() {
+            let joints = self.names(&found.slipping);
+            return MotionFault::Slips { time, joints };
+        }
         let mechanism = self.motion.mechanism();
         let (q, v) = self.motion.parts(y);
-        self.names(&opened(mechanism, (t, q, v), opening))
+        let joints = self.names(&opened(mechanism, (t, q, v), &found.opening));
+        MotionFault::Opens { time, joints }
     }
 
-    /// Records the event, and returns the error that ends the run.
-    fn ends_open(&mut self, time: f64, joints: Vec<String>) -> MotionFault {
-        let fault = MotionFault::Opens { time, joints };
+    /// Records the event of an error that ends the run.
+    fn note(&mut self, time: f64, fault: &MotionFault) {
+        let kind = match fault {
+            MotionFault::Slips { .. } => EventKind::Slips,
+            _ => EventKind::Lifts,
+        };
         let dropped = self.motion.equations.without_multiplier();
-        let event = Event::at(time, EventKind::Lifts, dropped, fault.to_string());
+        let event = Event::at(time, kind, dropped, fault.to_string());
         self.record.events.push(event);
-        fault
     }
 }

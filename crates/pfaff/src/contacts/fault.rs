@@ -49,7 +49,13 @@ impl ConfigurationAnalysis<'_> {
 }
 
 /// Returns the conditions of contacts that a distribution violates, in words.
-pub(crate) fn violated(of: &ConfigurationAnalysis<'_>, distribution: &Distribution) -> Vec<String> {
+///
+/// # Errors
+/// Returns the reason why the conditions are not decided.
+pub(crate) fn violated(
+    of: &ConfigurationAnalysis<'_>,
+    distribution: &Distribution,
+) -> Result<Vec<String>, String> {
     let groups = &of.mechanism.layout().groups;
     let words = |c: &ContactCondition| {
         let verb = match c.kind {
@@ -58,8 +64,6 @@ pub(crate) fn violated(of: &ConfigurationAnalysis<'_>, distribution: &Distributi
         };
         format!("`{}` {verb}", groups[c.joint.0].name)
     };
-    match of.violated(distribution) {
-        Ok(conditions) => conditions.iter().map(words).collect(),
-        Err(e) => vec![format!("not decided: {e}")],
-    }
+    let found = of.violated(distribution).map_err(|e| e.to_string())?;
+    Ok(found.iter().map(words).collect())
 }

@@ -9,11 +9,26 @@ use solvability::Impossible;
 const ROUNDING: f64 = 1e-9;
 
 /// Describes why no distribution of the loads keeps all one-sided joints closed.
-pub(super) fn tips((mechanism, q): (&Mechanism, &[f64]), t: f64, proof: &Impossible) -> String {
+/// `lifts` are the joints whose gaps accelerate: a motion in which one of them stays closed proves
+/// that joints open, but is not the motion that follows.
+pub(super) fn tips(
+    (mechanism, q): (&Mechanism, &[f64]),
+    t: f64,
+    proof: &Impossible,
+    lifts: &[(ConstraintId, f64)],
+) -> String {
     let groups = &mechanism.layout().groups;
     let names = |ids: &[ConstraintId]| -> Vec<String> {
         ids.iter().map(|id| groups[id.0].name.clone()).collect()
     };
+    let why = "no sharing of the loads presses on all one-sided joints";
+    if proof
+        .closed
+        .iter()
+        .any(|id| lifts.iter().any(|(open, _)| open == id))
+    {
+        return why.to_owned();
+    }
     let ids: Vec<ConstraintId> = proof.weights.iter().map(|(c, _)| c.joint).collect();
     let (opened, closed) = (names(&ids), names(&proof.closed));
     let mut s = mechanism.scratch();
@@ -29,7 +44,7 @@ pub(super) fn tips((mechanism, q): (&Mechanism, &[f64]), t: f64, proof: &Impossi
         ),
     };
     format!(
-        "no sharing of the loads presses on all one-sided joints: it {motion}, and {}",
+        "{why}: it {motion}, and {}",
         clause(&opened, ["opens", "open"])
     )
 }

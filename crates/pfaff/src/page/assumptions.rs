@@ -98,7 +98,7 @@ fn contacts(page: &RunPage<'_>) -> Vec<String> {
     }
     if !gripping.is_empty() {
         all.push(format!(
-            "Contacts with a coefficient of friction do not slip in the computed motion: {}. Whether they can hold is analysed at the start.",
+            "Contacts with a coefficient of friction do not slip in the computed motion: {}. The run ends when they slip for every sharing of the loads.",
             listed(&gripping)
         ));
     }

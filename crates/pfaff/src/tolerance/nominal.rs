@@ -84,6 +84,9 @@ pub(super) struct SampleContacts {
     /// sample the rows are independent, or nearly so; the self-stresses of the mechanism that is
     /// meant are those of the described configuration.
     pub(super) dependencies: Vec<Vec<f64>>,
+    /// The coefficients of the multipliers for each quantity at the described configuration; empty
+    /// for a magnitude.
+    pub(super) forms: Vec<Vec<f64>>,
 }
 
 /// A request for bounds in each sample.
@@ -147,6 +150,11 @@ impl Nominal {
                 }
             }
         }
+        // Without finite reactions no load is permitted.
+        let is_solvable = analysed.as_ref().is_none_or(|found| {
+            let solution = found.solution();
+            solution.is_ok_and(|solution| solution.no_finite.is_empty())
+        });
         // The joints set the values of reference points, directions and numbers at the start. The
         // accuracy of these values is the accuracy that the scene states.
         let of_stated = stated.with_numbers(&mechanism.data().numbers());
@@ -181,7 +189,9 @@ impl Nominal {
             },
             mechanism: of_stated,
         };
-        nominal.contacts = nominal.sample_contacts();
+        if is_solvable {
+            nominal.contacts = nominal.sample_contacts();
+        }
         Ok(nominal)
     }
 }

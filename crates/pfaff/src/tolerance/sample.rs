@@ -145,7 +145,7 @@ impl Nominal {
             self.with_exact_numbers(mechanism, (&s, &q, &v), &decision, &lambda);
         let of_kept = self.on_kept_rows(mechanism, &s, &q);
         let bounds = self.bounds_of((mechanism, &q), of_kept.as_ref(), &lambda);
-        let (opened, permitted) = self.carried((mechanism, &s, &q, &v), of_kept.as_ref(), &lambda);
+        let (opened, permitted) = self.carried((mechanism, &s, &q, &v), &lambda);
         let of_kept = self.verdicts_of(mechanism, of_kept.as_ref());
         let numbers = self.numbers_of(mechanism, &s, &lambda).into_iter();
         let kept = numbers.zip(&of_kept).map(|(x, verdict)| match *verdict {
@@ -395,10 +395,21 @@ impl Nominal {
         if !is_whole && described.is_none() {
             return None;
         }
-        let dependencies = described.map_or_else(Vec::new, |at| at.solvability().dependencies());
+        let form = |at: &Configuration<'_>, quantity: &Quantity| {
+            let form = quantity.form(at);
+            form.map_or_else(Vec::new, |form| form.coefficients().to_vec())
+        };
+        let (dependencies, forms) = match &described {
+            None => (Vec::new(), Vec::new()),
+            Some(at) => (
+                at.solvability().dependencies(),
+                self.quantities.iter().map(|q| form(at, q)).collect(),
+            ),
+        };
         Some(SampleContacts {
             joints,
             dependencies,
+            forms,
         })
     }
 
@@ -428,7 +439,6 @@ impl Nominal {
     fn carried(
         &self,
         (mechanism, s, q, v): (&Mechanism, &Scratch, &[f64], &[f64]),
-        at: Option<&Configuration<'_>>,
         lambda: &[f64],
     ) -> (Vec<ConstraintId>, Vec<[f64; 2]>) {
         let Some(contacts) = &self.contacts else {
@@ -436,19 +446,15 @@ impl Nominal {
         };
         let solution = (lambda, max_abs(&s.force));
         let carried = (contacts.joints).permitted((mechanism, s), solution, &contacts.dependencies);
-        let opening = match carried.closure().opening.as_slice() {
+        let opening = match carried.opening().opening.as_slice() {
             [] => Vec::new(),
             opening => opened(mechanism, (self.t, q, v), opening),
         };
-        let range = |quantity: &Quantity, at| {
-            let form = quantity.form(at)?;
-            carried.range(form.coefficients())
+        let range = |form: &Vec<f64>| match form.as_slice() {
+            [] => [f64::NAN; 2],
+            form => carried.range(form).unwrap_or([f64::NAN; 2]),
         };
-        let ranges = at.map_or_else(Vec::new, |at| {
-            let each = self.quantities.iter();
-            each.map(|quantity| range(quantity, at).unwrap_or([f64::NAN; 2]))
-                .collect()
-        });
+        let ranges = contacts.forms.iter().map(range).collect();
         (opening, ranges)
     }
 

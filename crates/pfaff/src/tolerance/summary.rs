@@ -143,6 +143,8 @@ impl Nominal {
 
     /// Counts the samples in which one-sided joints open.
     fn openings(&self, good: &[(u64, &AssembledSample)]) -> Option<OpeningsDocument> {
+        // Without finite reactions it is not known whether joints stay closed.
+        self.contacts.as_ref()?;
         let layout = self.mechanism.layout();
         let sided = layout.constraint_ids();
         let sided = sided.filter(|id| layout.groups[id.0].limits.open_side.is_some());

@@ -8,8 +8,8 @@ use crate::peaks::Peak;
 pub enum SweepStatus {
     /// The run reached its end time.
     Done,
-    /// The run ended at the instant after which not all one-sided joints can stay closed. The row
-    /// contains the results up to this time.
+    /// The run ended at the instant after which not all one-sided joints can stay closed, or not
+    /// all contacts can hold. The row contains the results up to this time.
     Opened,
     /// The run stopped early because of an error. The row contains the results up to this time.
     Stopped,

@@ -1,7 +1,7 @@
 //! The conditions of contacts as half spaces of the free coordinates y of their parts.
 
 use linalg::DisjointSets;
-use model::{ConstraintId, Grip, GripLoad, System};
+use model::{ConstraintId, Grip, GripLoad, Mechanism, Scratch, System};
 
 use super::carried::pressing_force;
 use super::error::PermittedError;
@@ -53,9 +53,9 @@ pub(super) struct GripConditions {
     pub(super) joint: ConstraintId,
     pub(super) friction: f64,
     /// The force N that presses the contact.
-    load: LoadNumber,
+    pub(super) load: LoadNumber,
     /// The components of the force S along orthonormal directions.
-    slip: Vec<LoadNumber>,
+    pub(super) slip: Vec<LoadNumber>,
 }
 
 /// Parts whose contacts depend on each other, and the loads that their contacts permit.
@@ -219,7 +219,7 @@ impl Cluster {
 }
 
 impl LoadNumber {
-    fn as_half_space(&self) -> HalfSpace {
+    pub(super) fn as_half_space(&self) -> HalfSpace {
         HalfSpace {
             row: self.row.clone(),
             value: self.value,
@@ -243,6 +243,18 @@ impl LoadNumber {
 }
 
 impl GripConditions {
+    /// Returns the half space `μ·N − e·S ≥ 0` with the direction e of S at y = 0. It contains the
+    /// cone, and is exact if S has only one value. `None` if S is zero.
+    pub(super) fn tangent(&self) -> Option<HalfSpace> {
+        let along: Vec<f64> = self.slip.iter().map(|s| s.value).collect();
+        let size = linalg::kernels::norm(&along);
+        let terms = self.slip.iter().map(|s| (-s.value / size, s));
+        (size > 0.0).then(|| {
+            let terms: Vec<_> = terms.collect();
+            self.load.combined(self.friction, &terms)
+        })
+    }
+
     /// Returns the half spaces `μ·N − e·S ≥ 0` for the directions e of a polygon.
     pub(super) fn half_spaces(&self, friction: f64, polygon: Polygon) -> Vec<HalfSpace> {
         match self.slip.as_slice() {
@@ -468,9 +480,35 @@ fn slip(
     id: ConstraintId,
 ) -> Result<Vec<(usize, LinearForm)>, RequestError> {
     let (k, own) = questions.place(id)?;
-    let configuration = questions.configuration(k)?;
-    let rows = &configuration.layout().groups[own.0].rows;
-    let forces = forces(configuration, own);
+    let reactions = questions.configuration(k)?.reactions();
+    let of_axis = |terms: &Vec<(usize, f64)>| {
+        let mut form = reactions.zero();
+        form.add(terms)?;
+        Ok((k, form))
+    };
+    let axes = slip_terms(&reactions.mechanism, &reactions.s, own);
+    axes.iter().map(of_axis).collect()
+}
+
+/// Returns the force of the nonholonomic rows of a joint along orthonormal directions. Each
+/// component is a list of rows with the coefficients of their multipliers.
+pub(super) fn slip_terms(
+    mechanism: &Mechanism,
+    s: &Scratch,
+    id: ConstraintId,
+) -> Vec<Vec<(usize, f64)>> {
+    let rows = &mechanism.layout().groups[id.0].rows;
+    let space = mechanism.space();
+    let map = mechanism.reactions(s).wrench_map(id);
+    // The force of each row for a multiplier of 1, in global components.
+    let of_row = |j: usize| {
+        let mut force = [0.0; 3];
+        space
+            .forces()
+            .for_each(|c| force[space.axis_of(c)] = map[(c, j)]);
+        force
+    };
+    let forces = (0..map.ncols()).map(of_row);
     let slipping: Vec<(usize, [f64; 3])> =
         rows.iter().zip(forces).skip(rows.holonomic.len()).collect();
     let mut axes: Vec<[f64; 3]> = Vec::new();
@@ -486,30 +524,10 @@ fn slip(
         }
     }
     let of_axis = |axis: &[f64; 3]| {
-        let mut form = configuration.reactions().zero();
-        let terms: Vec<_> = slipping
-            .iter()
-            .map(|(row, f)| (*row, dot(*axis, *f)))
-            .collect();
-        form.add(&terms)?;
-        Ok((k, form))
+        let terms = slipping.iter().map(|(row, f)| (*row, dot(*axis, *f)));
+        terms.collect()
     };
     axes.iter().map(of_axis).collect()
-}
-
-/// Returns the force of each row of a joint for a multiplier of 1, in global components.
-fn forces(configuration: &Configuration<'_>, own: ConstraintId) -> Vec<[f64; 3]> {
-    let space = configuration.layout().space;
-    let reactions = configuration.reactions();
-    let map = reactions.mechanism.reactions(&reactions.s).wrench_map(own);
-    let of_row = |j: usize| {
-        let mut force = [0.0; 3];
-        space
-            .forces()
-            .for_each(|c| force[space.axis_of(c)] = map[(c, j)]);
-        force
-    };
-    (0..map.ncols()).map(of_row).collect()
 }
 
 fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {

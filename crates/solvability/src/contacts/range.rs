@@ -193,6 +193,16 @@ impl PermittedReactions<'_, '_> {
             };
             ends = ends.map(|end| end.plus(own.clone()));
         }
+        if is_point
+            && let [
+                PermittedEnd::Reached { value: lowest, .. },
+                PermittedEnd::Reached { value: highest, .. },
+            ] = &mut ends
+        {
+            // Both are the one value, to within rounding.
+            let value = f64::midpoint(*lowest, *highest);
+            (*lowest, *highest) = (value, value);
+        }
         let kind = match ends.each_ref().map(PermittedEnd::value) {
             [Some(_), Some(_)] if is_point => RangeKind::Point,
             [Some(_), Some(_)] => RangeKind::Interval,

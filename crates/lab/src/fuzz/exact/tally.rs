@@ -45,8 +45,7 @@ pub enum Suite {
     /// Mechanisms in space, with numbers rounded to 3 … 16 significant digits.
     #[value(skip)]
     RoundedInSpace,
-    /// Drawings in the plane that have full rank, but for which a small change of the data lowers
-    /// the rank.
+    /// Drawings in the plane that have full rank. A small change of the data lowers their rank.
     #[value(skip)]
     FullRank,
 }

@@ -19,10 +19,13 @@ pub struct DistributionDocument {
     pub groups: Vec<ValuesDocument>,
     /// The multiplier of each row.
     pub multipliers: Vec<ValueDocument>,
-    /// Conditions of contacts that this choice violates: `JOINT pulls`, `JOINT slips`, or the
-    /// reason why this is not decided. The contacts do not permit these reactions.
+    /// Conditions of contacts that this choice violates: `JOINT pulls`, `JOINT slips`. The
+    /// contacts do not permit these reactions.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub not_permitted: Vec<String>,
+    /// Reason why it is not decided whether the contacts permit these reactions.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub permission_undecided: Option<String>,
 }
 
 /// The reaction of a joint or drive.
@@ -79,6 +82,7 @@ impl DistributionDocument {
                 .map(|value| ValueDocument::new(None, value, None))
                 .collect(),
             not_permitted: Vec::new(),
+            permission_undecided: None,
         }
     }
 }

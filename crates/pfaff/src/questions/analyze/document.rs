@@ -73,7 +73,10 @@ pub(super) fn of(
             .filter(|(_, values)| !values.is_empty())
             .map(|(group, values)| ValuesDocument::of_group(&group.name, &values))
             .collect();
-        made.not_permitted = violated(configuration, &distribution);
+        match violated(configuration, &distribution) {
+            Ok(conditions) => made.not_permitted = conditions,
+            Err(why) => made.permission_undecided = Some(why),
+        }
         document.answers.choices.push(made);
     }
     if !choices.is_empty() {

@@ -69,6 +69,9 @@ pub(super) fn of(d: &AnalysisDocument) -> Vec<Block> {
             let found = listed(&choice.not_permitted);
             text += &format!("; the contacts do not permit these reactions: {found}");
         }
+        if let Some(why) = &choice.permission_undecided {
+            text += &format!("; whether the contacts permit these reactions is not decided: {why}");
+        }
         Block::Legend(format!("choice {}", k + 1), text)
     };
     out.extend(choices.iter().enumerate().map(label));

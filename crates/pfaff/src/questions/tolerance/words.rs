@@ -109,7 +109,8 @@ fn permitted(d: &ToleranceDocument) -> Vec<Block> {
         ]
     });
     let lines: Vec<[Cell; 4]> = lines.collect();
-    let heading = "Loads that the contacts permit, in all samples in which they stay closed:";
+    let heading =
+        "Loads with which the one-sided joints stay closed (contacts may slip), over all samples:";
     let mut out = vec![
         Block::Heading(heading.to_owned()),
         Block::table(["reaction", "what", "lowest", "highest"], lines),
