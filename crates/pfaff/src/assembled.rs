@@ -3,8 +3,12 @@
 
 use dynamics::{MotionError, MotionOptions, PreparedMechanism, RowChoice};
 use dynamics::{prepare_after, start_velocity, unmovable};
+use model::start::CorrectionLimit;
 use model::start::assemble;
-use model::{Assembly, ConfigurationAccuracy, Mechanism, Registry, StartError, Tolerance};
+use model::{
+    AnyDescription, Assembly, ConfigurationAccuracy, FramePose, Mechanism, Registry, StartError,
+    StartPose, System, Tolerance,
+};
 use scene::Scene;
 use solvability::{ConstraintLevel, State};
 
@@ -190,6 +194,34 @@ impl AssembledScene {
         assemble(&mut self.mechanism, &self.scene.start).map_err(|e| refused(&self.scene, e.into()))
     }
 
+    /// Returns the frames of all bodies at a configuration near the start, in which one body is as
+    /// close to another pose as the joints allow. The other bodies follow. `to` converts the frame
+    /// at the start to this pose. [`scene::at_rest`] writes the frames into the text.
+    ///
+    /// # Errors
+    /// Returns the errors of [`Self::assemble`].
+    pub fn dragged(
+        &mut self,
+        body: usize,
+        to: impl FnOnce(FramePose) -> FramePose,
+    ) -> Result<Vec<FramePose>, StudyError> {
+        self.scene.start.correction = CorrectionLimit::Any;
+        let mut q = self.assemble()?.q;
+        let described = frames(&self.scene, &self.mechanism, &q);
+        let target = described.get(body).copied().map(to);
+        for _ in 0..DRAGS {
+            let mut poses = frames(&self.scene, &self.mechanism, &q);
+            if let (Some(pose), Some(target)) = (poses.get_mut(body), target) {
+                *pose = target;
+            }
+            let poses = poses.into_iter().enumerate();
+            let poses = poses.map(|(body, frame)| StartPose { body, frame });
+            self.scene.start.poses = poses.collect();
+            q = self.assemble()?.q;
+        }
+        Ok(frames(&self.scene, &self.mechanism, &q))
+    }
+
     /// Analyses the start, even if [`AssembledScene::prepare`] rejects the start because the rank
     /// is undecided in `f64` or no motion begins.
     ///
@@ -263,6 +295,30 @@ impl AssembledScene {
             progress,
         )
     }
+}
+
+/// Number of corrections of a dragged configuration. Each correction sets the dragged body to its
+/// target and finds the closest configuration, so that the body approaches its target.
+const DRAGS: usize = 4;
+
+/// Returns the frames of all bodies at the coordinates q.
+pub(crate) fn frames(scene: &Scene, mechanism: &Mechanism, q: &[f64]) -> Vec<FramePose> {
+    let v = vec![0.0; mechanism.layout().n_v];
+    let frame = |body: usize| {
+        let frame = mechanism.frames().body(body, q, &v);
+        let [x, y, _] = frame.place;
+        match &scene.description {
+            AnyDescription::Plane(_) => FramePose::Plane {
+                position: [x, y],
+                angle: frame.angle,
+            },
+            AnyDescription::Space3(_) => FramePose::Space3 {
+                position: frame.place,
+                orientation: frame.quaternion,
+            },
+        }
+    };
+    (0..mechanism.bodies().len()).map(frame).collect()
 }
 
 /// Adds the position in the text of the scene to an error, if there is a text.

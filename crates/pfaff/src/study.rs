@@ -20,8 +20,8 @@ use dynamics::{
 use model::start::assemble;
 use model::words::rounded;
 use model::{
-    AnyDescription, ConfigurationAccuracy, ConstraintId, FramePose, Load, Reaction, Registry,
-    StartError, StartPose, System,
+    AnyDescription, ConfigurationAccuracy, ConstraintId, Load, Reaction, Registry, StartError,
+    StartPose, System,
 };
 use report::{
     ByName, Family, OutputDirectory, Quantity, ReactionColumn, Selection, TableError, Trajectory,
@@ -34,7 +34,7 @@ use solvability::{
     contradicting_drives_along,
 };
 
-use crate::assembled::{AssembledScene, refused};
+use crate::assembled::{AssembledScene, frames, refused};
 use crate::body_loads::{BodyLoads, joints_of};
 use crate::bounds_of_run::{self, BOUNDS, BoundsOfRun, FoundBounds};
 use crate::configuration::{AskedRows, ConfigurationAnalysis, requests};
@@ -359,7 +359,11 @@ impl Study {
     /// Returns the study of the same scene that starts at the coordinates q, at rest.
     fn starting_at(&self, q: &[f64]) -> Result<Self, StudyError> {
         let mut scene = self.scene.clone();
-        scene.start.poses = self.poses(q);
+        let frames = frames(&self.scene, &self.prepared.mechanism, q).into_iter();
+        let poses = frames.enumerate();
+        scene.start.poses = poses
+            .map(|(body, frame)| StartPose { body, frame })
+            .collect();
         match &mut scene.description {
             AnyDescription::Plane(d) => {
                 for body in &mut d.bodies {
@@ -391,36 +395,16 @@ impl Study {
         })
     }
 
-    /// Returns the positions and orientations of all bodies at the coordinates q.
-    fn poses(&self, q: &[f64]) -> Vec<StartPose> {
-        let mechanism = &self.prepared.mechanism;
-        let v = vec![0.0; mechanism.layout().n_v];
-        let pose = |body: usize| {
-            let frame = mechanism.frames().body(body, q, &v);
-            let [x, y, _] = frame.place;
-            let frame = match &self.scene.description {
-                AnyDescription::Plane(_) => FramePose::Plane {
-                    position: [x, y],
-                    angle: frame.angle,
-                },
-                AnyDescription::Space3(_) => FramePose::Space3 {
-                    position: frame.place,
-                    orientation: frame.quaternion,
-                },
-            };
-            StartPose { body, frame }
-        };
-        (0..mechanism.bodies().len()).map(pose).collect()
-    }
-
     /// Returns the text of a scene that starts at the coordinates q, at rest; see
     /// [`scene::at_rest`]. The scene must have been read from a text.
     ///
     /// # Errors
     /// Returns an error if the poses cannot be written into the text.
     pub fn text_at_rest(&self, q: &[f64]) -> Result<String, KeyError> {
-        let poses: Vec<FramePose> = self.poses(q).iter().map(|pose| pose.frame).collect();
-        scene::at_rest(&self.scene, &poses)
+        scene::at_rest(
+            &self.scene,
+            &frames(&self.scene, &self.prepared.mechanism, q),
+        )
     }
 
     /// Finds the first contradiction of drives after the start. Drives may contradict each other,

@@ -25,6 +25,10 @@ mod code;
 mod error;
 mod gate;
 mod job;
+#[cfg(not(target_family = "wasm"))]
+mod lanes;
+#[cfg(target_family = "wasm")]
+#[path = "sweep/one_by_one.rs"]
 mod lanes;
 mod make;
 mod run;

@@ -50,6 +50,12 @@ impl Template {
         self.name
     }
 
+    /// Returns the text of the scene.
+    #[must_use]
+    pub fn text(self) -> &'static str {
+        self.text
+    }
+
     /// Returns the first sentence of the text, which describes the template.
     #[must_use]
     pub fn summary(self) -> String {
