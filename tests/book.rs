@@ -3,6 +3,8 @@
 
 #[doc = include_str!("../docs/book/introduction.md")]
 mod introduction {}
+#[doc = include_str!("../docs/book/browser.md")]
+mod browser {}
 #[doc = include_str!("../docs/book/getting-started.md")]
 mod getting_started {}
 #[doc = include_str!("../docs/book/from-a-drawing.md")]

@@ -219,7 +219,7 @@ fn the_reference_of_scenes_is_complete() {
 #[test]
 fn every_library_has_an_example_of_its_own() {
     // Programs, and crates that only the laboratory and tests use.
-    let others = ["bench", "exact", "pfaff-cli", "robot-trolley"];
+    let others = ["bench", "exact", "pfaff-cli", "robot-trolley", "web"];
     let headings = headings(&read("crates.md"));
     for entry in fs::read_dir(root().join("crates"))
         .expect("crates/")

@@ -17,6 +17,7 @@ mod platforms;
 mod questions;
 mod right_hand_side;
 mod scene;
+mod site;
 mod tree;
 
 use std::process::ExitCode;
@@ -34,6 +35,9 @@ const USAGE: &str = "usage: cargo xtask COMMAND
   choices             build time, size and dependencies of programs that use a part, into docs/reports/choices
   browser [--built]   reports of three scenes in headless Chromium, with pictures; written by a release build, or by what `cargo test` built
   browser --missing   what this machine lacks for it
+  site                the playground and the book as static files, into target/site
+  site --check        the same, compiled in a short time, with its tests in Node and Chromium
+  site --missing      what this machine lacks for it
   cold-start          times of the commands, process included
   guards              what monitors cost in a run: the same run with them and compiled without
   house [--json] [--check]
@@ -62,6 +66,9 @@ fn main() -> ExitCode {
         ["browser"] => browser::check(Program::Release),
         ["browser", "--built"] => browser::check(Program::OfTests),
         ["browser", "--missing"] => browser::missing(),
+        ["site"] => site::write(site::Build::Small),
+        ["site", "--check"] => site::check(),
+        ["site", "--missing"] => site::missing(),
         ["cold-start"] => cold_start::tell(),
         ["guards"] => guards::tell(),
         ["house", flags @ ..] if flags.iter().all(|f| ["--json", "--check"].contains(f)) => {

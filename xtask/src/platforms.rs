@@ -61,7 +61,7 @@ fn check_for(targets: &[&str]) -> Result<String, String> {
 }
 
 /// Installs the standard library of a target if it is missing.
-fn install(target: &str) -> Result<(), String> {
+pub(crate) fn install(target: &str) -> Result<(), String> {
     let folder =
         said_by(Command::new("rustc").args(["--print", "target-libdir", "--target", target]))?;
     if std::path::Path::new(folder.trim()).is_dir() {

@@ -16,7 +16,7 @@ use serde::{Deserialize, Serialize};
 use serde_json::Value;
 use serde_json::value::RawValue;
 
-use crate::request::REGISTRY;
+use crate::registry::REGISTRY;
 
 /// Directory of the module for the files of answers.
 const OUT: &str = "out";
@@ -45,6 +45,9 @@ pub(crate) struct Ask {
     /// Whether numbers of the text are in SI units without prefixes.
     #[serde(default)]
     si: bool,
+    /// Whether files are also written that can be written after the computation.
+    #[serde(default)]
+    files: bool,
 }
 
 /// An answer.
@@ -91,6 +94,7 @@ pub(crate) fn answered(asked: &Ask) -> Result<String, Refusal> {
     let scenes: Vec<Rc<Start<'static>>> = asked.scenes.iter().map(start).collect();
     let scenes: Vec<&Start<'_>> = scenes.iter().map(Rc::as_ref).collect();
     let output = question.facts().output;
+    let output = output.filter(|output| asked.files || output.is_streamed());
     let directory = output.map(|_| OutputDirectory::create(OUT)).transpose()?;
     let control = Control {
         progress: &announce,

@@ -9,7 +9,7 @@ use serde_json::{Map, Value};
 
 use crate::cursor::{Cursor, Outline, Part};
 use crate::position;
-use crate::request::REGISTRY;
+use crate::registry::REGISTRY;
 
 static SCHEMA: LazyLock<Value> = LazyLock::new(|| schema(&REGISTRY));
 

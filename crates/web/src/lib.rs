@@ -1,5 +1,6 @@
-//! `pfaff` in a browser. A page sends requests as JSON texts (module `request`) and gets replies as
-//! JSON texts. Nothing in this crate lists questions, keys or codes: it asks the library.
+#![doc = include_str!("../README.md")]
+//!
+//! # Code map
 //!
 //! | module | content |
 //! | --- | --- |
@@ -10,6 +11,7 @@
 //! | `cursor` | the table and the key at a position of a scene that may be incomplete |
 //! | `keys` | completion and hover, from the schema of scenes |
 //! | `position` | positions in UTF-16 units, which editors count |
+//! | `registry` | the joints and forces that a scene may use |
 
 mod ask;
 mod cursor;
@@ -17,6 +19,7 @@ mod drag;
 mod exports;
 mod keys;
 pub mod position;
+mod registry;
 mod request;
 
 pub use exports::{call, reply, reserve};

@@ -1,7 +1,8 @@
 //! Positions in UTF-16 units, which JavaScript and its editors count. A text of the library has
 //! positions in bytes.
 
-/// Returns the position in UTF-16 units of a byte. A byte inside of a character counts as its begin.
+/// Returns the position in UTF-16 units of a byte. A byte inside of a character counts as the begin
+/// of the character.
 ///
 /// ```
 /// use pfaff_web::position::{to_byte, to_utf16};

@@ -1,12 +1,11 @@
 //! The requests of a page, and their replies.
 //!
 //! A request is a JSON object with the key `call`. A reply is `{"done": …}`, or `{"refused": …}`
-//! with the document of the refusal. All offsets are in UTF-16 units.
+//! with the problems. All offsets are in UTF-16 units.
 
 use std::collections::BTreeMap;
-use std::sync::LazyLock;
 
-use pfaff::model::{Registry, SpaceKind};
+use pfaff::model::SpaceKind;
 use pfaff::questions::Questions;
 use pfaff::refusal::Refusal;
 use pfaff::scene::{Diagnostic, RetypedJoint, retyped};
@@ -19,9 +18,7 @@ use crate::ask::{self, Ask, Source};
 use crate::drag::{self, Pose};
 use crate::keys;
 use crate::position;
-
-/// The joints and forces that a scene may use.
-pub(crate) static REGISTRY: LazyLock<Registry> = LazyLock::new(Registry::standard);
+use crate::registry::REGISTRY;
 
 /// A request.
 #[derive(Deserialize)]

@@ -187,7 +187,7 @@ fn a_dragged_body_goes_where_its_joints_allow() {
     let reply = sent(&json!({
         "call": "ask", "question": "analyze", "scenes": [{ "name": "p.toml", "text": text }],
     }));
-    assert_eq!(reply["done"]["document"]["rank"], 2);
+    assert_eq!(reply["done"]["document"]["rank"], 2, "{text}\n{reply}");
     let start: Vec<f64> = text
         .split("position = [")
         .nth(1)

@@ -1,4 +1,4 @@
-//! Several runs on one thread, one after the other. This module replaces `lanes` on machines without
+//! Several runs on one thread, one after the other. This module replaces `lanes` where there are no
 //! coroutines.
 
 use dynamics::Stop;

@@ -1,8 +1,12 @@
 //! Creates the text of a scene with other types of joints.
 
-use joints::spec::{Shape, Spec};
-use toml::{Table, Value};
+use std::ops::Range;
 
+use joints::spec::{Shape, Spec};
+use toml::Spanned;
+use toml::de::{DeTable, DeValue};
+
+use super::number;
 use crate::direction;
 use crate::key::TYPE;
 use crate::limits;
@@ -23,15 +27,15 @@ pub struct RetypedJoint {
 }
 
 /// Returns the text of a scene in which joints have other types. Returns `None` if the text is not
-/// TOML or does not contain one of the joints. Bodies and points do not change. Comments are
-/// removed.
+/// TOML or does not contain one of the joints. The rest of the text does not change, comments
+/// included.
 ///
 /// ```
 /// use model::Registry;
 /// use pfaff_scene::RetypedJoint;
 /// let registry = Registry::standard();
 /// let spec = |name| &registry.space().constraints(name).next().unwrap().spec.common;
-/// let text = "[[joint]]\nname = \"hinge\"\ntype = \"revolute\"\naxis = [0, 0, 1]\nat = [0, 0, 0]\n";
+/// let text = "[[joint]]\nname = \"hinge\"\ntype = \"revolute\" # a pin\naxis = [0, 0, 1]\nat = [0, 0, 0]\n";
 /// let ball = RetypedJoint {
 ///     joint: "hinge".into(),
 ///     from: spec("revolute"),
@@ -39,38 +43,98 @@ pub struct RetypedJoint {
 ///     directions: Vec::new(),
 /// };
 /// let changed = pfaff_scene::retyped(text, &[&ball]).unwrap();
-/// assert_eq!(changed, "[[joint]]\nat = [0, 0, 0]\nname = \"hinge\"\ntype = \"spherical\"\n");
+/// assert_eq!(changed, "[[joint]]\nname = \"hinge\"\ntype = \"spherical\" # a pin\nat = [0, 0, 0]\n");
 /// assert_eq!(pfaff_scene::retyped("[[joint]]\nname = \"slide\"\n", &[&ball]), None);
 /// ```
 #[must_use]
 pub fn retyped(text: &str, joints: &[&RetypedJoint]) -> Option<String> {
     let is_small = limits::excess(text).is_none();
-    let mut root: Table = is_small.then(|| text.parse().ok())??;
+    let root = is_small.then(|| DeTable::parse(text).ok())??;
+    let mut edits = Vec::new();
     for change in joints {
-        let table = joint(&mut root, &change.joint)?;
-        // If `frame` stayed in the table, the directions would be in other axes.
-        if !change.directions.is_empty() && table.contains_key(direction::FRAME) {
-            return None;
-        }
-        let known = keys(change.to);
-        for key in keys(change.from) {
-            if !change.directions.is_empty() || !known.contains(&key) {
-                table.remove(key);
-            }
-        }
-        table.insert(TYPE.to_owned(), change.to.scene_type.into());
-        for (key, vector) in &change.directions {
-            table.insert((*key).to_owned(), vector.clone().into());
+        edits.extend(edits_of(
+            text,
+            joint(root.get_ref(), &change.joint)?,
+            change,
+        )?);
+    }
+    edits.sort_by_key(|(span, _)| span.start);
+    let (mut out, mut end) = (String::with_capacity(text.len()), 0);
+    for (span, new) in edits {
+        out += text.get(end..span.start)?;
+        out += &new;
+        end = span.end;
+    }
+    out += text.get(end..)?;
+    // Keys in an unusual form, such as a direction in dotted keys, are not changed.
+    DeTable::parse(&out).is_ok().then_some(out)
+}
+
+/// Parts of a text with their new texts.
+type Edits = Vec<(Range<usize>, String)>;
+
+/// Returns the changes of the table of a joint.
+fn edits_of(text: &str, table: &Spanned<DeValue<'_>>, change: &RetypedJoint) -> Option<Edits> {
+    let is_inline = text[table.span()].starts_with('{');
+    let table = table.get_ref().as_table()?;
+    // If `frame` stayed in the table, the directions would be in other axes.
+    if !change.directions.is_empty() && table.contains_key(direction::FRAME) {
+        return None;
+    }
+    let known = keys(change.to);
+    let mut edits = Vec::new();
+    for (key, value) in table {
+        let name = key.get_ref().as_ref();
+        let is_gone = !change.directions.is_empty() || !known.contains(&name);
+        if is_gone && keys(change.from).contains(&name) {
+            let span = key.span().start..value.span().end;
+            edits.push((entry(text, span, is_inline), String::new()));
         }
     }
-    Some(root.to_string())
+    let mut new = format!("\"{}\"", change.to.scene_type);
+    let between = if is_inline { ", " } else { "\n" };
+    for (key, vector) in &change.directions {
+        let vector: Vec<String> = vector.iter().map(|x| number(*x)).collect();
+        new += &format!("{between}{key} = [{}]", vector.join(", "));
+    }
+    let old = table.get(TYPE)?.span();
+    // A comment after the type stays with the type.
+    let line = &text[old.end..];
+    let comment = line[..line.find('\n').unwrap_or(line.len())].trim_end();
+    if !is_inline && let Some((kind, directions)) = new.split_once('\n') {
+        let end = old.end + comment.len();
+        edits.push((old.start..end, format!("{kind}{comment}\n{directions}")));
+    } else {
+        edits.push((old, new));
+    }
+    Some(edits)
+}
+
+/// Returns the range of an entry with its line, or with its comma.
+fn entry(text: &str, span: Range<usize>, is_inline: bool) -> Range<usize> {
+    let (before, after) = (&text[..span.start], &text[span.end..]);
+    if !is_inline {
+        let start = before.rfind('\n').map_or(0, |k| k + 1);
+        let line = after.find('\n').map_or(after.len(), |k| k + 1);
+        return start..span.end + line;
+    }
+    let rest = after.trim_start();
+    match rest.strip_prefix(',') {
+        Some(rest) => span.start..text.len() - rest.trim_start().len(),
+        None => before.trim_end().trim_end_matches(',').len()..span.end,
+    }
 }
 
 /// Returns the table of a joint.
-fn joint<'t>(root: &'t mut Table, name: &str) -> Option<&'t mut Table> {
-    let joints = root.get_mut(section::JOINT.name)?.as_array_mut()?;
-    let mut tables = joints.iter_mut().filter_map(Value::as_table_mut);
-    tables.find(|table| table.get("name").and_then(Value::as_str) == Some(name))
+fn joint<'t>(root: &'t DeTable<'t>, name: &str) -> Option<&'t Spanned<DeValue<'t>>> {
+    let joints = root.get(section::JOINT.name)?.get_ref().as_array()?;
+    joints.iter().find(|joint| {
+        let own = joint
+            .get_ref()
+            .as_table()
+            .and_then(|table| table.get("name"));
+        own.and_then(|own| own.get_ref().as_str()) == Some(name)
+    })
 }
 
 /// Returns the keys of the directions of a type.

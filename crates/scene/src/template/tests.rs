@@ -2,7 +2,7 @@
 
 use model::Registry;
 
-use super::{KeyError, Template};
+use super::{KeyError, RetypedJoint, Template, retyped};
 use crate::read;
 
 const SCENE: &str = r#"# a cart
@@ -204,4 +204,58 @@ fn the_same_number_twice_is_refused() {
     let dotted = "[scene]\nmotion.rate = 1.0\n";
     let error = Template::new(dotted, &["scene.motion.start"]).err();
     assert!(matches!(error, Some(KeyError::NoRoom { .. })), "{error:?}");
+}
+
+#[test]
+fn joints_of_other_types_keep_the_rest_of_the_text() {
+    let registry = Registry::standard();
+    let spec = |name: &str| {
+        &registry
+            .space()
+            .constraints(name)
+            .next()
+            .unwrap()
+            .spec
+            .common
+    };
+    let change = |to: &str, directions: Vec<(&'static str, Vec<f64>)>| RetypedJoint {
+        joint: "B".to_owned(),
+        from: spec("revolute"),
+        to: spec(to),
+        directions,
+    };
+    let heads = "[[joint]]\nname = \"A\"\ntype = \"revolute\"\naxis = \"x\"\n\n[[joint]] # B\naxis = \"x\" # along the shaft\nname = \"B\"\ntype = \"revolute\"\t# kept\nat = [0, 0, 0]\n";
+    let ball = retyped(heads, &[&change("spherical", Vec::new())]).unwrap();
+    assert_eq!(
+        ball,
+        "[[joint]]\nname = \"A\"\ntype = \"revolute\"\naxis = \"x\"\n\n[[joint]] # B\nname = \"B\"\ntype = \"spherical\"\t# kept\nat = [0, 0, 0]\n"
+    );
+    let along = change("point-on-line", vec![("axis", vec![0.0, 1.0, 0.0])]);
+    let line = retyped(heads, &[&along]).unwrap();
+    assert!(
+        line.contains("[[joint]] # B\nname = \"B\"\ntype = \"point-on-line\"\t# kept\naxis = [0, 1, 0]\nat = [0, 0, 0]\n"),
+        "{line}"
+    );
+    // Lists of inline tables, with the key first, between others, and last.
+    for (own, expected) in [
+        (
+            "{ axis = \"x\", name = \"B\", type = \"revolute\" }",
+            "{ name = \"B\", type = \"spherical\" }",
+        ),
+        (
+            "{ name = \"B\", axis = [1, 0, 0], type = \"revolute\" }",
+            "{ name = \"B\", type = \"spherical\" }",
+        ),
+        (
+            "{ name = \"B\", type = \"revolute\", axis = \"x\" }",
+            "{ name = \"B\", type = \"spherical\" }",
+        ),
+    ] {
+        let text = format!("joint = [{own}] # µ\n");
+        let ball = retyped(&text, &[&change("spherical", Vec::new())]).unwrap();
+        assert_eq!(ball, format!("joint = [{expected}] # µ\n"));
+        let both = retyped(&text, &[&along]).unwrap();
+        let typed = "type = \"point-on-line\", axis = [0, 1, 0]";
+        assert!(both.contains(typed), "{both}");
+    }
 }

@@ -74,7 +74,9 @@ pub(crate) fn of_run(start: &Start<'_>, study: &Study) -> Result<Vec<RemedyDocum
         return Ok(Vec::new());
     }
     let of = study.analyse(0.0, None)?;
-    let mut document = of.document(&[])?;
+    // Other parts of the document do not influence the remedies.
+    let generic = of.generic();
+    let mut document = AnalysisDocument::new(of.scene.name(), &of.analysis, generic.as_ref());
     add(&Analyze::default(), start, &of, &mut document)?;
     Ok(document.answers.remedies)
 }
