@@ -27,10 +27,9 @@ mod gate;
 mod job;
 #[cfg(not(target_family = "wasm"))]
 mod lanes;
-#[cfg(target_family = "wasm")]
-#[path = "sweep/one_by_one.rs"]
-mod lanes;
 mod make;
+#[cfg(target_family = "wasm")]
+mod one_by_one;
 mod run;
 mod shard;
 #[cfg(test)]

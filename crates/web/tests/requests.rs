@@ -1,5 +1,7 @@
 //! Requests as a page sends them, on the machine of the tests.
 
+use std::f64::consts::FRAC_PI_2;
+
 use serde_json::{Value, json};
 
 /// Sends a request through the raw exports' buffer, and returns the reply.
@@ -178,7 +180,7 @@ fn a_dragged_body_goes_where_its_joints_allow() {
         sent(&json!({ "call": "place", "scene": scene, "body": "bob", "pose": pose }))
     };
     // The nearest point of the unit circle about the pivot.
-    let reply = placed(json!({ "position": [0.0, -3.0], "angle": -1.5707963267948966 }));
+    let reply = placed(json!({ "position": [0.0, -3.0], "angle": -FRAC_PI_2 }));
     let text = reply["done"].as_str().expect("a text");
     assert!(
         text.contains("name = \"bob\"   # heavy"),

@@ -468,7 +468,14 @@ fn a_killed_run_leaves_nothing_that_looks_whole() {
 fn an_interrupted_comparison_keeps_its_rows() {
     let folder = Folder::new("faults-comparison");
     let child = begun(
-        &["work-precision", ROBOT, "--all", "--out", folder.text(), "--json"],
+        &[
+            "work-precision",
+            ROBOT,
+            "--all",
+            "--out",
+            folder.text(),
+            "--json",
+        ],
         Stdio::piped(),
     );
     // The directory is created before the first run. Some runs finish within three seconds, also on

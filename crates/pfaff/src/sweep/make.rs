@@ -5,7 +5,10 @@ use dynamics::Stop;
 use report::SweepRow;
 
 use super::job::{Job, Keep};
+#[cfg(not(target_family = "wasm"))]
 use super::lanes::together;
+#[cfg(target_family = "wasm")]
+use super::one_by_one::together;
 use super::{Sweep, SweepError};
 
 /// Largest number of runs that are begun together.
