@@ -196,7 +196,7 @@ impl AssembledScene {
 
     /// Returns the frames of all bodies at a configuration near the start, in which one body is as
     /// close to another pose as the joints allow. The other bodies follow. `to` converts the frame
-    /// at the start to this pose. [`scene::at_rest`] writes the frames into the text.
+    /// at the start to this pose. [`scene::posed`] writes the frames into the text.
     ///
     /// # Errors
     /// Returns the errors of [`Self::assemble`].
@@ -209,7 +209,7 @@ impl AssembledScene {
         let mut q = self.assemble()?.q;
         let described = frames(&self.scene, &self.mechanism, &q);
         let target = described.get(body).copied().map(to);
-        for _ in 0..DRAGS {
+        for k in 0..DRAGS {
             let mut poses = frames(&self.scene, &self.mechanism, &q);
             if let (Some(pose), Some(target)) = (poses.get_mut(body), target) {
                 *pose = target;
@@ -217,7 +217,12 @@ impl AssembledScene {
             let poses = poses.into_iter().enumerate();
             let poses = poses.map(|(body, frame)| StartPose { body, frame });
             self.scene.start.poses = poses.collect();
-            q = self.assemble()?.q;
+            match self.assemble() {
+                Ok(assembly) => q = assembly.q,
+                // Near a limit of the motion, the last configuration is the closest that is known.
+                Err(_) if k > 0 => break,
+                Err(e) => return Err(e),
+            }
         }
         Ok(frames(&self.scene, &self.mechanism, &q))
     }

@@ -4,6 +4,7 @@
 //!
 //! The caller chooses the values. This module does not check the values.
 
+mod edit;
 mod key;
 mod rest;
 mod retyped;
@@ -17,7 +18,7 @@ use toml::de::DeTable;
 use key::SlotKind;
 
 pub use key::KeyError;
-pub use rest::at_rest;
+pub use rest::{at_rest, posed};
 pub use retyped::{RetypedJoint, retyped};
 
 use crate::limits;

@@ -31,7 +31,7 @@ pub(crate) fn placed(source: &Source, body: &str, pose: &Pose) -> Result<String,
     })?;
     let frames = assembled.dragged(found, |frame| pose.of(frame));
     let frames = frames.map_err(|e| start.refusal(e))?;
-    let text = pfaff::scene::at_rest(&assembled.scene, &frames);
+    let text = pfaff::scene::posed(&assembled.scene, &frames);
     text.map_err(|e| Refusal::input(e.to_string()).coded(e.code()))
 }
 

@@ -1,10 +1,11 @@
-//! Creates the text of a scene whose initial state is at rest in other poses. The key `start` of
-//! each body is written, and given velocities are set to zero. The rest of the text does not
+//! Creates the text of a scene that starts in other poses. The key `start` of each body is written,
+//! and given velocities are set to zero or removed. The rest of the text does not
 //! change. Points, initial values and comments still refer to the described configuration.
 
 use model::{DescribedBody, FramePose};
 use toml::de::DeTable;
 
+use super::edit::{edited, entry};
 use super::key::SlotKind;
 use super::{KeyError, Template, number};
 use crate::language::Units;
@@ -29,13 +30,68 @@ use crate::scene::Scene;
 /// # Panics
 /// Panics if the number of poses differs from the number of bodies.
 pub fn at_rest(scene: &Scene, poses: &[FramePose]) -> Result<String, KeyError> {
+    let bodies = scene.description.bodies();
+    let still = bodies.iter().enumerate().flat_map(|(k, body)| {
+        let zero = move |(name, given): (&str, usize)| {
+            let zero = match given {
+                1 => "0".to_owned(),
+                n => format!("[{}]", vec!["0"; n].join(", ")),
+            };
+            (format!("body[{k}].{name}"), zero)
+        };
+        moving(&body.described).into_iter().map(zero)
+    });
+    written(scene, poses, still.collect())
+}
+
+/// Returns the text of a scene whose bodies start in these poses, in the order of the bodies. Given
+/// velocities belong to other poses and are removed, so that the start finds consistent velocities.
+///
+/// ```
+/// use model::FramePose;
+/// let text = "[scene]\nname = \"drop\"\nspace = \"plane\"\n[[body]]\nname = \"bob\"\nvelocity = [1, 0] # m/s\nmass = 1\ninertia = 1\n";
+/// let scene = pfaff_scene::read("drop.toml", text, &model::Registry::standard()).unwrap();
+/// let there = pfaff_scene::posed(&scene, &[FramePose::Plane { position: [0.5, 2.0], angle: 0.25 }])?;
+/// assert!(there.ends_with("[[body]]\nstart = { position = [0.5, 2], angle = 0.25 }\nname = \"bob\"\nmass = 1\ninertia = 1\n"));
+/// # Ok::<(), pfaff_scene::KeyError>(())
+/// ```
+///
+/// # Errors
+/// Returns the errors of [`at_rest`].
+///
+/// # Panics
+/// Panics if the number of poses differs from the number of bodies.
+pub fn posed(scene: &Scene, poses: &[FramePose]) -> Result<String, KeyError> {
+    let text = written(scene, poses, Vec::new())?;
+    let root = DeTable::parse(&text).map_err(|_| KeyError::NotToml)?;
+    let bodies = root.get_ref().get("body");
+    let bodies = bodies.and_then(|bodies| bodies.get_ref().as_array());
+    let mut edits = Vec::new();
+    for body in bodies.into_iter().flatten() {
+        let is_inline = text[body.span()].starts_with('{');
+        let keys = body.get_ref().as_table().into_iter().flatten();
+        for (key, value) in keys.filter(|(key, _)| VELOCITIES.contains(&key.get_ref().as_ref())) {
+            let span = key.span().start..value.span().end;
+            edits.push((entry(&text, span, is_inline), String::new()));
+        }
+    }
+    edited(&text, edits).ok_or(KeyError::NotToml)
+}
+
+/// Keys of given velocities of a body.
+const VELOCITIES: [&str; 2] = ["velocity", "angular_velocity"];
+
+/// Writes the poses, and these keys with their values.
+fn written(
+    scene: &Scene,
+    poses: &[FramePose],
+    mut values: Vec<(String, String)>,
+) -> Result<String, KeyError> {
     let text = scene.text().ok_or(KeyError::NotToml)?;
     let bodies = scene.description.bodies();
     assert_eq!(poses.len(), bodies.len(), "one pose for each body");
-    let units = scene.units;
-    let mut values: Vec<(String, String)> = Vec::new();
-    for (k, (pose, body)) in poses.iter().zip(&bodies).enumerate() {
-        let parts = parts(pose, units);
+    for (k, pose) in poses.iter().enumerate() {
+        let parts = parts(pose, scene.units);
         let key = |name: &str| format!("body[{k}].{name}");
         if has_header(text, k) {
             // `[body.start]`
@@ -47,13 +103,6 @@ pub fn at_rest(scene: &Scene, poses: &[FramePose]) -> Result<String, KeyError> {
                 .map(|(name, value)| format!("{name} = {value}"));
             let table = format!("{{ {} }}", each.collect::<Vec<_>>().join(", "));
             values.push((key("start"), table));
-        }
-        for (name, given) in moving(&body.described) {
-            let zero = match given {
-                1 => "0".to_owned(),
-                n => format!("[{}]", vec!["0"; n].join(", ")),
-            };
-            values.push((key(name), zero));
         }
     }
     let keys: Vec<&str> = values.iter().map(|(key, _)| key.as_str()).collect();

@@ -1,11 +1,10 @@
 //! Creates the text of a scene with other types of joints.
 
-use std::ops::Range;
-
 use joints::spec::{Shape, Spec};
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
+use super::edit::{Edits, edited, entry};
 use super::number;
 use crate::direction;
 use crate::key::TYPE;
@@ -58,20 +57,8 @@ pub fn retyped(text: &str, joints: &[&RetypedJoint]) -> Option<String> {
             change,
         )?);
     }
-    edits.sort_by_key(|(span, _)| span.start);
-    let (mut out, mut end) = (String::with_capacity(text.len()), 0);
-    for (span, new) in edits {
-        out += text.get(end..span.start)?;
-        out += &new;
-        end = span.end;
-    }
-    out += text.get(end..)?;
-    // Keys in an unusual form, such as a direction in dotted keys, are not changed.
-    DeTable::parse(&out).is_ok().then_some(out)
+    edited(text, edits)
 }
-
-/// Parts of a text with their new texts.
-type Edits = Vec<(Range<usize>, String)>;
 
 /// Returns the changes of the table of a joint.
 fn edits_of(text: &str, table: &Spanned<DeValue<'_>>, change: &RetypedJoint) -> Option<Edits> {
@@ -108,21 +95,6 @@ fn edits_of(text: &str, table: &Spanned<DeValue<'_>>, change: &RetypedJoint) -> 
         edits.push((old, new));
     }
     Some(edits)
-}
-
-/// Returns the range of an entry with its line, or with its comma.
-fn entry(text: &str, span: Range<usize>, is_inline: bool) -> Range<usize> {
-    let (before, after) = (&text[..span.start], &text[span.end..]);
-    if !is_inline {
-        let start = before.rfind('\n').map_or(0, |k| k + 1);
-        let line = after.find('\n').map_or(after.len(), |k| k + 1);
-        return start..span.end + line;
-    }
-    let rest = after.trim_start();
-    match rest.strip_prefix(',') {
-        Some(rest) => span.start..text.len() - rest.trim_start().len(),
-        None => before.trim_end().trim_end_matches(',').len()..span.end,
-    }
 }
 
 /// Returns the table of a joint.
