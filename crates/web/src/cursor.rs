@@ -53,6 +53,9 @@ pub(crate) struct Outline {
     pub(crate) cursor: Option<Cursor>,
 }
 
+/// Number of brackets in each other that are read as tables. The reader of scenes refuses more.
+const DEEPEST: usize = 100;
+
 /// An open bracket of a value.
 enum Open {
     /// An inline table: the table around it, and the key in it.
@@ -127,13 +130,13 @@ impl Reader<'_> {
             '#' => self.at = begin + rest.find('\n').unwrap_or(rest.len()),
             '\n' if self.open.is_empty() => self.key.clear(),
             '[' if self.key.is_empty() && self.open.is_empty() => self.header(begin),
-            '[' => self.open.push(Open::List),
-            '{' => {
+            '{' if self.open.len() < DEEPEST => {
                 let mut path = self.outline.tables[self.table].path.clone();
                 path.push(self.key.clone());
                 self.open.push(Open::Table(self.table, self.key.clone()));
                 self.begin(path);
             }
+            '[' | '{' => self.open.push(Open::List),
             '}' | ']' => match self.open.pop() {
                 Some(Open::Table(table, key)) => (self.table, self.key) = (table, key),
                 Some(Open::List) | None => {}

@@ -148,6 +148,27 @@ fn an_unfinished_scene_is_completed_too() {
 }
 
 #[test]
+fn hostile_texts_are_completed_in_linear_time() {
+    for part in [
+        "{b=",
+        "[",
+        "(",
+        "\"",
+        "a = {",
+        "[[a]]\n",
+        "a.",
+        "'''\n",
+        "\u{1f642}",
+    ] {
+        let text = format!("a = {}", part.repeat(50_000));
+        for offset in [0, text.len() / 2, text.len()] {
+            let request = json!({ "call": "complete", "text": text, "offset": offset });
+            assert!(sent(&request)["done"]["options"].is_array(), "{part}");
+        }
+    }
+}
+
+#[test]
 fn every_offset_of_a_scene_has_a_description_or_none() {
     for text in [PENDULUM, include_str!("../../../examples/hooke.toml")] {
         for offset in 0..text.len() + 3 {
