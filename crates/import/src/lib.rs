@@ -10,7 +10,7 @@
 //! | `findings` | problems, omitted content, digits of numbers |
 //! | `vocabulary` | the names in a format; unknown names are rejected |
 //! | `mjcf`, `urdf` with `loops`, `sdf` | one reader for each format |
-//! | `solids` | common parts of URDF and SDF |
+//! | `solids`, `extensions` | common parts of URDF and SDF; elements of other programs that change the mechanism |
 //! | `mechanism`, `mass` | links, joints, couplings, keyframes; masses and simple solids |
 //! | `couple` | couplings that are not satisfied at the described pose of the links |
 //! | `digits`, `tolerance`, `angles` | the decimal places of the numbers of a file, and the accuracy of these numbers; angles in another unit |
@@ -25,6 +25,7 @@ mod assemble;
 mod axes;
 mod couple;
 mod digits;
+mod extensions;
 mod files;
 mod findings;
 mod limits;

@@ -7,6 +7,7 @@ use std::collections::HashMap;
 
 use nalgebra::{Isometry3, Vector3};
 
+use crate::extensions;
 use crate::findings::{Fault, Findings, NumberKind};
 use crate::mass::Mass;
 use crate::mechanism::{Coupling, Frame, JointKind, Link, Load, Model};
@@ -36,7 +37,7 @@ impl<'n> Scope<'n> {
         }
     }
 
-    fn link(&self, value: &Value, findings: &mut Findings) -> Option<Option<usize>> {
+    pub(crate) fn link(&self, value: &Value, findings: &mut Findings) -> Option<Option<usize>> {
         let name = value.text.trim();
         if name == "world" {
             return Some(None);
@@ -187,6 +188,9 @@ fn read_model(element: Element, version: (u32, u32), model: &mut Model, findings
             findings.of(Fault::Twice, child, message);
         }
         joint(child, &scope, model, findings);
+    }
+    for child in element.children().filter(|child| child.name() == "plugin") {
+        extensions::plugin(child, &scope, model, "plugins", findings);
     }
     scope.links.clear();
     for child in element.children().filter(|child| child.name() == "joint") {

@@ -6,6 +6,7 @@ use std::collections::HashMap;
 
 use nalgebra::{Isometry3, Vector3};
 
+use crate::extensions;
 use crate::findings::{Fault, Findings, NumberKind};
 use crate::loops;
 use crate::mass::Mass;
@@ -58,11 +59,24 @@ pub(crate) fn read(root: Element, base: Base, findings: &mut Findings) -> Model 
     for child in root.children() {
         match child.name() {
             "gazebo" => gazebo(child, &names, &mut model, findings),
+            "loop_joint" => {
+                let scope = sdf::Scope::of_links(&names);
+                let kinds = [NumberKind::Length, NumberKind::Direction];
+                let frame = |end: Element, findings: &mut Findings| frame(end, kinds, findings);
+                // Missing or wrong content has already been reported.
+                let _ = extensions::loop_joint(child, &scope, &mut model, frame, findings);
+            }
             "transmission" => {
                 let name = child.attribute("name").map_or("", |name| name.text);
                 findings.leave_element("actuators", child, name);
             }
             _ => {}
+        }
+    }
+    for child in root.foreign_children() {
+        if (child.prefix(), child.name()) == (Some("drake"), "ball_constraint") {
+            let scope = sdf::Scope::of_links(&names);
+            let _ = extensions::ball_constraint(child, &scope, &mut model, findings);
         }
     }
     assume_gravity(&mut model, findings);
@@ -83,9 +97,18 @@ fn origin(
     counted: [NumberKind; 2],
     findings: &mut Findings,
 ) -> Option<Isometry3<f64>> {
-    let Some(origin) = element.child("origin") else {
-        return Some(Isometry3::identity());
-    };
+    match element.child("origin") {
+        Some(origin) => frame(origin, counted, findings),
+        None => Some(Isometry3::identity()),
+    }
+}
+
+/// The attributes `xyz` and `rpy` of an element.
+fn frame(
+    origin: Element,
+    counted: [NumberKind; 2],
+    findings: &mut Findings,
+) -> Option<Isometry3<f64>> {
     let [length, angle] = counted;
     let at = match origin.attribute("xyz") {
         Some(value) => findings.vector(&value, length)?,
@@ -430,6 +453,9 @@ fn coupling(
     })
 }
 
+/// Kind of omission for content of `<gazebo>`.
+const GAZEBO: &str = "settings and plugins of Gazebo";
+
 /// Joints that close loops, written as in SDF; settings of a simulator are omitted.
 fn gazebo(
     element: Element,
@@ -446,12 +472,15 @@ fn gazebo(
             for joint in &mut model.joints[first..] {
                 joint.places = false;
             }
+        } else if child.name() == "plugin" {
+            let scope = sdf::Scope::of_links(names);
+            extensions::plugin(child, &scope, model, GAZEBO, findings);
         } else {
             let subject = match element.attribute("reference") {
-                Some(link) => format!("{} of `{}`", child.name(), link.text),
-                None => child.name().to_owned(),
+                Some(link) => format!("<{}> of `{}`", child.name(), link.text),
+                None => format!("<{}>", child.name()),
             };
-            findings.leave_element("settings and plugins of Gazebo", child, &subject);
+            findings.leave_element(GAZEBO, child, &subject);
         }
     }
 }

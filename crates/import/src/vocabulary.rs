@@ -5,6 +5,7 @@
 
 use std::ops::Range;
 
+use crate::extensions;
 use crate::files::Files;
 use crate::findings::{EXPAND, Fault, Findings};
 use crate::limits::{MOST_LISTED, SHOWN};
@@ -76,6 +77,12 @@ enum Meaning {
     Known,
     Left(&'static str),
     Unknown,
+}
+
+impl Meaning {
+    fn is_known(&self) -> bool {
+        matches!(self, Self::Known)
+    }
 }
 
 /// The name of an element in a list.
@@ -167,6 +174,9 @@ fn unknown_element(
     findings: &mut Findings,
 ) {
     let near = scene::nearest(child.name(), entry.names(true));
+    if is_open && let Some(advice) = extensions::advice(child.name()) {
+        return extensions::refuse(child, &format!("`<{}>`", child.name()), advice, findings);
+    }
     if is_open && near.is_none() {
         return findings.leave_element(EXTENSIONS, child, &subject(around, child));
     }
@@ -191,11 +201,17 @@ fn foreign(entry: &Entry, around: Element, child: Element, findings: &mut Findin
         let help = EXPAND.to_owned();
         return findings.fault_with_help(Fault::Unsupported, source, span, message, "", help);
     }
+    if entry.find(&format!("<{name}>")).is_known() {
+        return;
+    }
     let local = format!("<{}>", child.name());
     if entry.read.split_whitespace().any(|known| known == local) {
         let message = format!("`<{name}>` is an extension that may change the mechanism");
         let help = format!("describe it with {local}, or remove it");
         return findings.fault_with_help(Fault::Unsupported, source, span, message, "", help);
+    }
+    if let Some(advice) = extensions::advice(child.name()) {
+        return extensions::refuse(child, &format!("`<{name}>`"), advice, findings);
     }
     let of = around.attribute("name").map(|name| name.text.trim());
     let subject = match of.filter(|of| !of.is_empty()) {
@@ -205,16 +221,18 @@ fn foreign(entry: &Entry, around: Element, child: Element, findings: &mut Findin
     findings.leave_element(EXTENSIONS, child, &subject);
 }
 
-/// Returns a description of an omitted element: its name, or its kind and the name of its parent.
+/// Returns a description of an omitted element: its kind with its name, or with the name of its
+/// parent.
 fn subject(around: Element, child: Element) -> String {
     let name = |element: Element| {
         let name = element.attribute("name").map(|name| name.text.trim());
         name.filter(|name| !name.is_empty()).map(str::to_owned)
     };
-    name(child).unwrap_or_else(|| match name(around) {
-        Some(of) => format!("<{}> of `{of}`", child.name()),
-        None => format!("<{}>", child.name()),
-    })
+    match (name(child), name(around)) {
+        (Some(own), _) => format!("<{}> `{own}`", child.name()),
+        (None, Some(of)) => format!("<{}> of `{of}`", child.name()),
+        (None, None) => format!("<{}>", child.name()),
+    }
 }
 
 fn list(names: impl Iterator<Item = String>) -> Option<String> {

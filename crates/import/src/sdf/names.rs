@@ -23,7 +23,7 @@ const ENTRIES: &[Entry] = &[
         )]),
     Entry::new(
         "model",
-        "name <link> <joint> <pose> <frame> <static> <model> <include>",
+        "name <link> <joint> <pose> <frame> <static> <model> <include> <plugin>",
     )
     .idle("canonical_link namespace")
     .left(&[
@@ -33,7 +33,6 @@ const ENTRIES: &[Entry] = &[
             "<self_collide> <allow_auto_disable> <enable_wind>",
         ),
         ("grippers", "<gripper>"),
-        ("plugins", "<plugin>"),
     ]),
     Entry::new("link", "name <pose> <inertial> <collision> <gravity>")
         .idle("<visual> <light> <must_be_base_link>")

@@ -8,9 +8,12 @@ pub(crate) const NAMES: &Vocabulary = &Vocabulary {
 };
 
 const ENTRIES: &[Entry] = &[
-    Entry::new("robot", "name <link> <joint> <gazebo> <transmission>")
-        .idle("version <material>")
-        .left(&[("actuators", "<ros2_control>")]),
+    Entry::new(
+        "robot",
+        "name <link> <joint> <loop_joint> <drake:ball_constraint> <gazebo> <transmission>",
+    )
+    .idle("version <material>")
+    .left(&[("actuators", "<ros2_control>")]),
     Entry::new("link", "name <inertial> <collision>")
         .idle("type <visual>")
         .left(&[
@@ -32,6 +35,9 @@ const ENTRIES: &[Entry] = &[
         "controllers and calibrations",
         "<safety_controller> <calibration>",
     )]),
+    Entry::new("loop_joint", "name type <link1> <link2> <axis>").idle("<limit> <dynamics>"),
+    Entry::new("link1", "link xyz rpy"),
+    Entry::new("link2", "link xyz rpy"),
     Entry::new("parent", "link"),
     Entry::new("child", "link"),
     Entry::new("axis", "xyz"),

@@ -134,7 +134,7 @@ fn extensions_are_told() {
         (extension, "<d:colour> of `arm`"),
         (extension, "<planning_groups> of `r`"),
         (extension, "mu_coulomb of <dynamics>"),
-        ("actuators", "c"),
+        ("actuators", "<ros2_control> `c`"),
     ] {
         assert!(told.contains(&expected), "{expected:?}: {told:?}");
     }
