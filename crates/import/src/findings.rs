@@ -190,6 +190,17 @@ impl Findings {
         !self.problems.is_empty()
     }
 
+    /// Number of problems so far.
+    pub(crate) fn count(&self) -> usize {
+        self.problems.len() + self.more
+    }
+
+    /// Removes all problems after the first `count`.
+    pub(crate) fn forget(&mut self, count: usize) {
+        self.more = count.saturating_sub(self.problems.len());
+        self.problems.truncate(count);
+    }
+
     /// All problems, if there are any.
     pub(crate) fn refusal(&mut self) -> Option<(Vec<Diagnostic>, usize)> {
         let is_fine = self.problems.is_empty();

@@ -253,7 +253,7 @@ fn read<'a>(
         return (Model::default(), format);
     }
     let mut model = match format {
-        "MJCF" => mjcf::read(files, findings),
+        "MJCF" => mjcf::read(files, options.keyframe.as_deref(), findings),
         "URDF" => urdf::read(root, options.base, findings),
         _ => sdf::read(root, findings),
     };

@@ -32,7 +32,11 @@ const IDLE_ACTUATORS: &str = "actuators";
 const ACTING: &str = "actuators that also act without a signal: accelerations differ";
 
 /// Reads a model. Problems are added to `findings`.
-pub(crate) fn read<'a>(files: &'a Files<'a>, findings: &mut Findings) -> Model {
+pub(crate) fn read<'a>(
+    files: &'a Files<'a>,
+    keyframe: Option<&str>,
+    findings: &mut Findings,
+) -> Model {
     let root = files.root();
     let sections = files.children(root, findings);
     let compiler = Compiler::read(&sections, findings);
@@ -45,6 +49,7 @@ pub(crate) fn read<'a>(files: &'a Files<'a>, findings: &mut Findings) -> Model {
             defaults,
         },
         model: Model::default(),
+        keyframe: keyframe.map(str::to_owned),
         bodies: HashMap::from([("world".to_owned(), None)]),
         joints: HashMap::new(),
         names: HashSet::new(),

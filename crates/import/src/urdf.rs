@@ -438,6 +438,13 @@ fn coupling(
         findings.at(Fault::Unknown, &name, message);
         return None;
     };
+    if model.joints[y].kind == JointKind::Fixed {
+        findings.remarks.push(format!(
+            "Joint `{}` is fixed, so it does not follow `{}`.",
+            edge.name, name.text
+        ));
+        return None;
+    }
     let has = |joint: usize| !model.joints[joint].kind.measures().is_empty();
     if x == y || !has(x) || !has(y) {
         let message = format!("joint `{}` cannot follow `{}`", edge.name, name.text);

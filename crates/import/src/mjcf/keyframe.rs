@@ -23,8 +23,14 @@ impl<'a> Reader<'a, '_> {
             let name = name
                 .filter(|name| !name.is_empty())
                 .unwrap_or_else(|| format!("{k}"));
-            if let Some(state) = self.state(element, name) {
+            let known = self.source.findings.count();
+            if let Some(state) = self.state(element, name.clone()) {
                 self.model.states.push(state);
+            } else if self.keyframe.as_ref() != Some(&name) {
+                // A keyframe at which the scene does not start does not matter.
+                let findings = &mut self.source.findings;
+                findings.forget(known);
+                findings.leave_element("keyframes that do not fit the model", element, &name);
             }
         }
     }

@@ -13,6 +13,8 @@ use crate::xml::{Element, Value};
 pub(super) struct Reader<'a, 'f> {
     pub(super) source: Source<'a, 'f>,
     pub(super) model: Model,
+    /// Name of the keyframe at which the scene starts.
+    pub(super) keyframe: Option<String>,
     /// Links by the names of their bodies; `world` is the ground.
     pub(super) bodies: HashMap<String, Option<usize>>,
     /// Joint and coordinate of the joints of the file, by name.

@@ -3,7 +3,7 @@
 
 use pfaff_import::{FixedLinks, Options};
 
-use super::{first, imported, options_of, read, refused, text_of, value};
+use super::{first, import_text, imported, options_of, read, refused, text_of, value};
 
 /// Number of bodies, and number of joints and couplings of each file, counted by hand. Intermediate
 /// bodies between several joints count as bodies, and bodies without joints are merged.
@@ -392,4 +392,28 @@ fn nothing_is_dropped_in_silence() {
             .any(|o| o.kind == kind && o.subject == subject);
         assert!(told, "{kind}: {subject}: {:#?}", done.omissions);
     }
+}
+
+/// A keyframe with wrong numbers is an error only if the scene starts there.
+#[test]
+fn a_keyframe_that_does_not_fit_matters_only_if_it_is_the_start() {
+    let text = text_of("mjcf/pendulum.xml");
+    let text = text.replace(
+        "</keyframe>",
+        "<key name='old' qpos='1 2 3 4 5 6 7'/></keyframe>",
+    );
+    let done = import_text(&text, &options_of("mjcf/pendulum.xml"));
+    let left = |o: &pfaff_import::Omission| (o.kind, o.subject.clone());
+    let expected = ("keyframes that do not fit the model", "old".to_owned());
+    assert!(
+        done.omissions.iter().any(|o| left(o) == expected),
+        "{:?}",
+        done.omissions
+    );
+    let options = Options {
+        keyframe: Some("old".to_owned()),
+        ..options_of("mjcf/pendulum.xml")
+    };
+    let refusal = pfaff_import::import("file.xml", &text, &options).expect_err("refused");
+    assert_eq!(first(&refusal).0, "P0605");
 }

@@ -2,7 +2,7 @@
 
 use pfaff_import::{Base, ImportedScene, Options, Refusal};
 
-use super::{first, imported, numbers, options_of, read, refused, text_of, value};
+use super::{first, import_text, imported, numbers, options_of, read, refused, text_of, value};
 
 /// Number of bodies, and number of joints and couplings, counted by hand. The root is fixed to the
 /// ground and merged, and links that fixed joints connect are also merged.
@@ -286,4 +286,30 @@ fn faults_have_codes_and_lines() {
         let (found, at, message) = first(&refused(&text));
         assert_eq!((found.as_str(), at), (code, line), "{text}: {message}");
     }
+}
+
+/// The joint does not move, so there is nothing to follow.
+#[test]
+fn a_fixed_joint_that_follows_another_one_is_a_note() {
+    let link = |name: &str| {
+        format!(
+            "<link name='{name}'><inertial><mass value='1'/><inertia ixx='1' iyy='1' izz='1' \
+             ixy='0' ixz='0' iyz='0'/></inertial></link>"
+        )
+    };
+    let text = format!(
+        "<robot name='m'><link name='base'/>{}{}<joint name='A' type='continuous'>\
+         <parent link='base'/><child link='a'/></joint><joint name='B' type='fixed'>\
+         <parent link='a'/><child link='b'/><mimic joint='A'/></joint></robot>",
+        link("a"),
+        link("b"),
+    );
+    let done = import_text(&text, &Options::default());
+    assert_eq!(done.counts, [1, 1]);
+    let note = "Joint `B` is fixed, so it does not follow `A`.";
+    assert!(
+        done.remarks.iter().any(|remark| remark == note),
+        "{:?}",
+        done.remarks
+    );
 }
