@@ -49,6 +49,21 @@ function scriptHashes(ask, { name, text }, directory) {
   return [...new Set(pages.flatMap(hashesOf))];
 }
 
+/** Looks of thumbnails: no texts, larger symbols. */
+const THUMBNAIL = `text { display: none; } .mark, .thin, .groove, .foot { transform: scale(1.8); }
+.site, .rod { stroke-width: 3; } .rod { stroke-width: 5; }`;
+
+/** Returns a picture without its title, scale and legend. */
+function thumbnail(picture) {
+  const end = picture.indexOf('<g class="scale">');
+  const [width, height] = picture.match(/viewBox="0 0 (\S+) (\S+)"/).slice(1).map(Number);
+  const bottom = end < 0 ? height : Number(picture.slice(end).match(/M\S+ (\S+?)v/)?.[1] ?? height);
+  return `${end < 0 ? picture.replace("</svg>", "") : picture.slice(0, end)}</svg>`
+    .replace(/<rect width="[\d.]+" height="[\d.]+" fill="#ffffff"\/>/, "")
+    .replace(/ width="[^"]*" height="[^"]*" viewBox="[^"]*"/, ` viewBox="0 30 ${width} ${bottom - 30}"`)
+    .replace("</style>", `${THUMBNAIL}</style>`);
+}
+
 /** The licences of the packages in the bundles, with their texts. */
 function licences(metafiles) {
   const files = metafiles.flatMap(({ inputs }) => Object.keys(inputs));
@@ -67,7 +82,7 @@ const directory = mkdtempSync(join(tmpdir(), "pfaff-page-"));
 const ask = await started(wasm, directory);
 const { examples, version } = ask({ call: "about" });
 const pictured = examples.map(({ name, summary, text }) => ({
-  name, summary, text, picture: ask({ call: "picture", scene: { name: `${name}.toml`, text } }),
+  name, summary, text, picture: thumbnail(ask({ call: "picture", scene: { name: `${name}.toml`, text } })),
 }));
 const hashes = scriptHashes(ask, examples[0], directory);
 rmSync(directory, { recursive: true });

@@ -3,6 +3,8 @@
 
 /** A step must bring the point nearer at least by this share. */
 const PROGRESS = 0.98;
+/** A body that moves by less than this share of its size does not move. */
+const MOVED = 1e-4;
 
 const minus = (a, b) => a.map((x, k) => x - b[k]);
 const plus = (a, b) => a.map((x, k) => x + b[k]);
@@ -54,7 +56,9 @@ export class Dragging {
   #last = {};
 
   /**
-   * @param {{place: (body: string, pose: object) => Promise<void>, drop: () => void}} actions
+   * @param {object} actions
+   * @param {(body: string, pose: object) => Promise<void>} actions.place
+   * @param {(end: {body: string, hasMoved: boolean}) => void} actions.drop
    */
   constructor(actions) {
     this.actions = actions;
@@ -62,10 +66,14 @@ export class Dragging {
 
   grab() {
     this.#last = {};
+    this.first = null;
+    this.hasMoved = false;
     return true;
   }
 
   drag(detail) {
+    this.first ??= detail;
+    this.hasMoved ||= Math.hypot(...minus(detail.at, this.first.at)) > MOVED * detail.size;
     const far = Math.hypot(...minus(detail.to, detail.at));
     const goal = detail.to.join();
     const isStuck = goal === this.#last.goal && !(far < PROGRESS * this.#last.far);
@@ -93,6 +101,6 @@ export class Dragging {
 
   #end() {
     this.isDropped = false;
-    this.actions.drop();
+    if (this.first) this.actions.drop({ body: this.first.body, hasMoved: this.hasMoved });
   }
 }

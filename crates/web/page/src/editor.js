@@ -11,7 +11,7 @@ import {
   lineNumbers,
 } from "@codemirror/view";
 import { classHighlighter } from "@lezer/highlight";
-import { make } from "./dom.js";
+import { make, withNames } from "./dom.js";
 
 /** The tokens of TOML. */
 const toml = StreamLanguage.define({
@@ -183,16 +183,20 @@ export class Editor {
   mark(problems) {
     const { length } = this.view.state.doc;
     const diagnostics = problems.flatMap(({ severity, message, help, marks, fixes }) =>
-      marks.map(({ from, to, text }, k) => ({
-        from: Math.min(from, length),
-        to: Math.min(to, length),
-        severity: k > 0 ? "info" : severity,
-        message: k > 0 ? text : [message, text, help].filter(Boolean).join("\n"),
-        actions: fixes.filter((fix) => fix.mark === k).map((fix) => ({
-          name: fix.title,
-          apply: () => this.change(fix, fix.insert),
-        })),
-      })));
+      marks.map(({ from, to, text }, k) => {
+        const words = k > 0 ? text : [message, text, help].filter(Boolean).join("\n");
+        return {
+          from: Math.min(from, length),
+          to: Math.min(to, length),
+          severity: k > 0 ? "info" : severity,
+          message: words,
+          renderMessage: () => make("span", {}, ...withNames(words)),
+          actions: fixes.filter((fix) => fix.mark === k).map((fix) => ({
+            name: fix.title,
+            apply: () => this.change(fix, fix.insert),
+          })),
+        };
+      }));
     diagnostics.sort((a, b) => a.from - b.from);
     this.view.dispatch(setDiagnostics(this.view.state, diagnostics));
   }

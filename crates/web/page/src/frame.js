@@ -10,6 +10,9 @@ main, #motion, .stage { height: 100%; } .stage { grid-template-columns: minmax(0
 .picture { border: 0; border-radius: 0; }
 #picture { flex: 1 1 0; height: 0; touch-action: none; }`;
 
+/** The page around the frame has a button for the theme. */
+const REPORT = "#theme { display: none; }";
+
 const dataOf = (html) => {
   const from = html.indexOf(DATA) + DATA.length;
   return JSON.parse(html.slice(from, html.indexOf("</script>", from)));
@@ -28,11 +31,11 @@ export class Frame {
 
   /**
    * @param {HTMLIFrameElement} element
-   * @param {{isPicture?: boolean, on?: Record<string, (detail: object) => boolean | void>}} options
-   *   `on` has a function for each event of the page; the function returns whether it acts
+   * @param {{isPicture?: boolean, at?: string, on?: Record<string, (detail: object) => boolean | void>}} options
+   *   `at` is the section that is visible first; `on` has a function for each event of the page; the function returns whether it acts
    */
-  constructor(element, { isPicture = false, on = {} } = {}) {
-    Object.assign(this, { element, isPicture, on });
+  constructor(element, { isPicture = false, at = null, on = {} } = {}) {
+    Object.assign(this, { element, isPicture, at, on });
     element.addEventListener("load", () => this.#listen());
   }
 
@@ -50,8 +53,8 @@ export class Frame {
     this.html = html;
     const theme = document.documentElement.dataset.theme;
     const themed = theme ? html.replace("<html", `<html data-theme="${theme}"`) : html;
-    const style = this.isPicture ? `<style>${PICTURE_ONLY}</style></head>` : "</head>";
-    this.element.srcdoc = themed.replace("</head>", style);
+    const style = this.isPicture ? PICTURE_ONLY : REPORT;
+    this.element.srcdoc = themed.replace("</head>", `<style>${style}</style></head>`);
   }
 
   /** Marks a joint. */
@@ -74,6 +77,7 @@ export class Frame {
     for (const [name, act] of Object.entries(this.on)) {
       inner?.addEventListener(`pfaff:${name}`, (event) => act(event.detail) && event.preventDefault());
     }
+    if (this.at) inner?.getElementById(this.at)?.scrollIntoView();
     if (this.#cast) this.#send("start", this.#waiting);
     this.#waiting = null;
     if (this.joint) this.select(this.joint);

@@ -15,6 +15,8 @@ import { Verdicts } from "./verdicts.js";
 /** Pauses after typing before the scene is checked and before it is analysed (ms). */
 const CHECK_PAUSE = 120;
 const ANALYSE_PAUSE = 300;
+/** A pointer that pauses for this time rests (ms). */
+const REST = 150;
 /** A request that takes longer shows a button to stop it (ms). */
 const LONG = 700;
 const STORED = "pfaff-scene";
@@ -38,11 +40,10 @@ const picture = new Frame(byId("start"), {
     drop: () => dragging.drop(),
   },
 });
-const report = new Frame(byId("report"), { on: { selected: selectFromPicture } });
+const report = new Frame(byId("report"), { at: "motion", on: { selected: selectFromPicture } });
 const tabs = new Tabs(byId("tabs"), [
-  ["scene", "Scene", false], ["picture", "Picture", false], ["verdicts", "Verdicts", true], ["text", "Text", true],
-  ["motion", "Motion", !isEmbedded], ["files", "Files", !isEmbedded], ["more", "More", !isEmbedded],
-  ["difference", "Difference", true],
+  ["scene", "Scene", isEmbedded ? "tab" : "narrow"], ["picture", "Picture", isEmbedded ? "never" : "narrow"],
+  ...["Verdicts", "Text", "Motion", "Files", "More", "Difference"].map((label) => [label.toLowerCase(), label, "tab"]),
 ], onTab);
 
 /** The scene. `editor` is `null` until its script is loaded. */
@@ -116,6 +117,8 @@ async function analyse() {
   const request = { call: "ask", question: "analyze", options, scenes: [source()] };
   const reply = await module.ask(request, {
     kind: "analyze",
+    // The first verdict comes before the first picture. Later, the picture follows the pointer.
+    urgent: !scene.isAnalysed,
     onProgress: ({ what, done, all }) => state(all ? `Analysing: ${what} ${done} of ${all}` : `Analysing: ${what}`),
   });
   if (text !== scene.text || reply.superseded) return;
@@ -132,6 +135,7 @@ async function analyse() {
     return;
   }
   verdicts.show(done.document);
+  byId("hint").classList.toggle("fits", done.document.mobility > 0);
   byId("words").textContent = done.text;
   byId("reactions").classList.remove("stale");
   byId("words").classList.remove("stale");
@@ -244,6 +248,8 @@ async function replaceJoints({ replace }) {
   }));
 }
 
+const analyseAtRest = afterPause(REST, analyse);
+
 const dragging = new Dragging({
   async place(body, pose) {
     scene.beforeDrag ??= scene.text;
@@ -252,15 +258,24 @@ const dragging = new Dragging({
     if (!done || done === scene.text) return;
     scene.text = done;
     editor?.preview(done);
+    setStale(true);
+    // The picture follows the pointer with its verdicts; the table follows when the pointer rests.
     await drawStart();
-    analyse();
+    analyseAtRest();
   },
-  drop() {
+  drop({ body, hasMoved }) {
     const { beforeDrag, text } = scene;
-    scene.beforeDrag = null;
-    if (beforeDrag === null || beforeDrag === undefined || beforeDrag === text) return;
+    scene.beforeDrag = undefined;
+    if (beforeDrag === undefined || beforeDrag === text) return;
     editor?.preview(beforeDrag);
-    editor?.replace(text);
+    if (hasMoved) {
+      byId("hint").hidden = true;
+      editor?.replace(text);
+    } else {
+      scene.text = beforeDrag;
+      refresh();
+      say(["Joints and drives prevent a motion of ", make("code", { textContent: body }), "."]);
+    }
   },
 });
 
@@ -291,7 +306,7 @@ async function run(question, options, scenes, { stop, state: line, progress }) {
   runner.isRunning = false;
   stop.hidden = true;
   if (progress) progress.hidden = true;
-  const kept = files.rows ? ` ${files.rows} rows are kept in Files.` : "";
+  const kept = files.rows ? ` Files contains ${files.rows} rows.` : "";
   if (reply.stopped) line.textContent = `Stopped.${kept}`;
   else if (reply.crashed !== undefined) line.textContent = `Failed.${kept}`;
   else if (reply.refused) line.textContent = "";
@@ -459,6 +474,7 @@ const editorScript = import("./editor.js");
 async function start() {
   setUpTools();
   tabs.offer("difference", false);
+  if (isEmbedded) ["motion", "files", "more"].forEach((id) => tabs.offer(id, false));
   tabs.show("verdicts");
   const first = await firstScene();
   open(...first);

@@ -25,15 +25,14 @@ export function listProblems(list, problems, { text, onGo, onFix, onExplain }) {
     const { severity, code, message, help, marks, fixes } = problem;
     const line = marks[0] ? text.slice(0, marks[0].from).split("\n").length : null;
     const item = make("li", { className: severity });
+    const labels = marks.map((mark) => mark.text).filter(Boolean);
     item.append(
       make("span", { className: "severity", textContent: severity }),
+      button(code, () => onExplain(code, item), { className: "link code", title: `Explain ${code}` }),
       line === null ? "" : button(`Line ${line}`, () => onGo(marks[0]), { className: "link" }),
-      make("span", { className: "message" }, ...withNames(message)),
-      ...marks.filter((mark) => mark.text).map((mark) =>
-        make("span", { className: "label" }, ...withNames(mark.text))),
+      make("span", { className: "message" }, ...withNames([message, ...labels].join("; "))),
       ...fixes.map((fix) => button(fix.title, () => onFix(fix), { className: "fix" })),
       help ? make("span", { className: "help" }, ...withNames(help)) : "",
-      button(code, () => onExplain(code, item), { className: "link code", title: `Explain ${code}` }),
     );
     return item;
   }));

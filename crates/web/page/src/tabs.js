@@ -3,12 +3,14 @@
 import { byId, make } from "./dom.js";
 
 const NARROW = matchMedia("(max-width: 820px)");
-const isEmbedded = new URLSearchParams(location.search).has("embed");
 
 export class Tabs {
   #tabs = new Map();
 
-  /** @param {[id: string, label: string, isWideTab: boolean][]} views */
+  /**
+   * @param {[id: string, label: string, kind: "tab" | "narrow" | "never"][]} views a view of the kind
+   *   `narrow` is a tab on a narrow page; otherwise it is always visible, as a view of the kind `never`
+   */
   constructor(list, views, onShow) {
     Object.assign(this, { list, views, onShow });
     for (const [id, label] of views) {
@@ -42,13 +44,12 @@ export class Tabs {
     this.onShow(id);
   }
 
-  #isTab(id, isWideTab) {
-    if (this.#tabs.get(id).dataset.offered === "false") return false;
-    return isWideTab || (this.isNarrow && !(isEmbedded && id === "picture"));
-  }
-
   #arrange() {
-    const isTab = (id) => this.#isTab(id, this.views.find(([own]) => own === id)[2]);
+    const isTab = (id) => {
+      const kind = this.views.find(([own]) => own === id)[2];
+      const isOffered = this.#tabs.get(id).dataset.offered !== "false";
+      return isOffered && (kind === "tab" || (kind === "narrow" && this.isNarrow));
+    };
     if (!this.current || !isTab(this.current)) {
       this.current = "verdicts";
       document.body.dataset.view = this.current;

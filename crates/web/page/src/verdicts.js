@@ -119,12 +119,12 @@ export class Verdicts {
   }
 
   #groups(groups) {
-    return make("section", { className: "groups" }, make("h3", { textContent: "Sums" }),
+    return make("section", { className: "groups" }, make("h2", { textContent: "Sums" }),
       make("ul", {}, ...groups.map(({ name, verdict }) => make("li", {}, make("code", { textContent: name }), " ", badge(verdict)))));
   }
 
   #remedies(remedies) {
-    return make("section", { className: "remedies" }, make("h3", { textContent: "Design changes" }),
+    return make("section", { className: "remedies" }, make("h2", { textContent: "Design changes" }),
       make("ul", {}, ...remedies.map((remedy) => make("li", {},
         make("span", {}, ...withNames(remedy.text)), " ",
         button("Replace in place", () => this.actions.onReplace(remedy), {
