@@ -82,9 +82,18 @@ const state = (text) => { byId("state").textContent = text; };
 
 // Answers
 
-/** Greys answers to a former text. */
-function setStale(isStale) {
-  for (const answer of document.querySelectorAll(".answer")) answer.classList.toggle("stale", isStale);
+/** The texts to which answers belong, by the elements of the answers. */
+const answered = new Map();
+
+/** Greys answers to another text. */
+function greyStale() {
+  for (const [id, text] of answered) byId(id).classList.toggle("stale", text !== scene.text);
+}
+
+/** Notes that an element shows the answer to a text. */
+function showsAnswerTo(text, ...ids) {
+  for (const id of ids) answered.set(id, text);
+  greyStale();
 }
 
 async function check() {
@@ -128,6 +137,7 @@ async function analyse() {
     showProblems(refused.problems);
     if (!refused.problems.length) say(refused.error);
     byId("words").textContent = refused.error;
+    showsAnswerTo(text, "words");
     return;
   }
   if (!done) {
@@ -137,8 +147,7 @@ async function analyse() {
   verdicts.show(done.document);
   byId("hint").classList.toggle("fits", done.document.mobility > 0);
   byId("words").textContent = done.text;
-  byId("reactions").classList.remove("stale");
-  byId("words").classList.remove("stale");
+  showsAnswerTo(text, "reactions", "words");
   state(`Analysed in ${Math.round(ms)} ms`);
   if (!scene.isAnalysed) performance.mark("pfaff-verdict");
   scene.isAnalysed = true;
@@ -155,6 +164,7 @@ async function drawStart(text = scene.text) {
 /** Shows the report of the run; before a run, the page of the start. */
 function showReport() {
   const html = scene.report ?? scene.page;
+  showsAnswerTo(scene.report ? scene.textOfReport : scene.text, "report");
   if (html && report.html !== html) report.show(html);
 }
 
@@ -178,7 +188,7 @@ const store = afterPause(ANALYSE_PAUSE, () => {
 
 function onText(text) {
   scene.text = text;
-  setStale(true);
+  greyStale();
   checkSoon();
   refreshSoon();
   store();
@@ -190,7 +200,7 @@ function open({ name, text }, { isFromAddress = false } = {}) {
   byId("name").value = name;
   editor?.open(text);
   files.clear();
-  setStale(true);
+  greyStale();
   byId("message").hidden = true;
   document.body.classList.toggle("offered", isFromAddress);
   if (!isFromAddress) {
@@ -258,7 +268,7 @@ const dragging = new Dragging({
     if (!done || done === scene.text) return;
     scene.text = done;
     editor?.preview(done);
-    setStale(true);
+    greyStale();
     // The picture follows the pointer with its verdicts; the table follows when the pointer rests.
     await drawStart();
     analyseAtRest();
@@ -273,6 +283,7 @@ const dragging = new Dragging({
       editor?.replace(text);
     } else {
       scene.text = beforeDrag;
+      greyStale();
       refresh();
       say(["Joints and drives prevent a motion of ", make("code", { textContent: body }), "."]);
     }
@@ -325,9 +336,8 @@ async function simulate() {
   }
   if (!done) return;
   const html = await files.text("report.html");
-  if (html) scene.report = html;
+  if (html) Object.assign(scene, { report: html, textOfReport: text });
   else byId("run-state").textContent += " The scene requests no report.";
-  byId("report").classList.toggle("stale", text !== scene.text);
   showReport();
 }
 
@@ -339,19 +349,20 @@ async function askQuestion() {
     byId("ask-state").textContent = `The options are not JSON: ${error.message}`;
     return;
   }
-  const place = byId("answer");
+  const { text } = scene;
   const { done, refused } = await run(byId("question").value, options, [source()], {
     stop: byId("stop-ask"), state: byId("ask-state"),
   });
-  place.textContent = done?.text ?? refused?.error ?? "";
-  place.classList.remove("stale");
+  byId("answer").textContent = done?.text ?? refused?.error ?? "";
+  showsAnswerTo(text, "answer");
 }
 
 async function askDifference() {
+  const { text } = scene;
   const scenes = [source(), { name: `${scene.name}-2.toml`, text: second.text }];
   const { done, refused } = await run("diff", {}, scenes, { stop: byId("stop-ask"), state: byId("difference-state") });
   byId("difference-words").textContent = done?.text ?? refused?.error ?? "";
-  byId("difference-words").classList.remove("stale");
+  showsAnswerTo(text, "difference-words");
 }
 
 // Tools
@@ -397,7 +408,7 @@ async function setCompare(isOn) {
   const { Editor } = await editorScript;
   second ??= new Editor({
     parent: byId("second"), text: scene.text, label: "Second scene", module,
-    onChange: () => byId("difference-words").classList.add("stale"),
+    onChange: () => showsAnswerTo(null, "difference-words"),
   });
   tabs.show("difference");
 }

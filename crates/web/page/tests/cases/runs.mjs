@@ -64,6 +64,20 @@ export const failureOfTheModule = (server) => on(server, "door", async (visit, p
   assert.match(await visit.text(), /21\.0/);
 });
 
+export const stopAnalysis = (server) => on(server, "door", async (visit, page) => {
+  const text = await visit.text();
+  // The worker does not finish the next request.
+  for (const worker of page.workers()) {
+    await worker.evaluate(() => {
+      JSON.stringify = () => { for (;;); };
+    });
+  }
+  await visit.write(text.replace("20.0", "21.0"));
+  await page.locator("#stop-analysis").click();
+  await visit.write(text.replace("20.0", "22.0"));
+  await visit.settled();
+});
+
 export const otherQuestion = (server) => on(server, "three-cranks", async (_, page) => {
   await page.getByRole("tab", { name: "More" }).click();
   await page.locator("#question").selectOption("equilibrium");
