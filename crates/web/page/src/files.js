@@ -80,13 +80,9 @@ export async function read(file, module) {
   return { name, text: done.text, format: done.format, remarks: remarksOf(done) };
 }
 
-/** The remarks of an import and what the scene does not contain, as sentences. */
-function remarksOf({ remarks, left_out: leftOut }) {
-  const words = (item) => (typeof item === "string" ? item
-    : item.text ?? item.message ?? Object.values(item).filter((x) => typeof x === "string").join(": "));
-  const omitted = [leftOut ?? []].flat().map((item) => `not imported: ${words(item)}`);
-  return [...(remarks ?? []).map(words), ...omitted];
-}
+/** The remarks of an import and the parts of the model that the scene does not contain. */
+const remarksOf = ({ remarks, left_out: leftOut }) =>
+  [...remarks, ...leftOut.map(([what, places]) => `Not imported: ${what}: ${places.join(", ")}`)];
 
 /** Files that are dropped on the page. */
 export function acceptDrops(shade, onFile) {
@@ -103,6 +99,7 @@ export function acceptDrops(shade, onFile) {
     shade.hidden = true;
     if (!hasFile(event)) return;
     event.preventDefault();
+    event.stopPropagation();
     onFile(event.dataTransfer.files[0]);
   }, true);
 }

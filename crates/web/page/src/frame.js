@@ -57,7 +57,14 @@ export class Frame {
     this.element.srcdoc = themed.replace("</head>", `<style>${style}</style></head>`);
   }
 
-  /** Marks a joint. */
+  /** Shows nothing. */
+  clear() {
+    this.#cast = null;
+    this.html = null;
+    this.element.srcdoc = "";
+  }
+
+  /** Marks a joint. `null` marks no joint. */
   select(joint) {
     this.joint = joint;
     this.#send("select", { joint });

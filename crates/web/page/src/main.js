@@ -1,7 +1,7 @@
 // Puts the page together: the scene, its answers, and the tools.
 
 import { Dragging } from "./drag.js";
-import { afterPause, button, byId, download, make } from "./dom.js";
+import { afterPause, button, byId, download, make, withNames } from "./dom.js";
 import { acceptDrops, Files, read } from "./files.js";
 import { Frame } from "./frame.js";
 import { allExamples, setUpGallery } from "./gallery.js";
@@ -62,8 +62,8 @@ function say(text, ...actions) {
   line.hidden = false;
 }
 
-const saidList = (title, lines) => make("details", { open: lines.length < 6 },
-  make("summary", { textContent: title }), make("ul", {}, ...lines.map((textContent) => make("li", { textContent }))));
+const listOf = (title, lines) => make("details", { open: lines.length < 6 },
+  make("summary", { textContent: title }), make("ul", {}, ...lines.map((line) => make("li", {}, ...withNames(line)))));
 
 function onCrash(text, isRestarted) {
   const first = isRestarted ? "The analysis program failed; the page made a new instance."
@@ -134,6 +134,7 @@ async function analyse() {
   const { done, refused, stopped, ms } = reply;
   if (refused) {
     state("Not analysed");
+    if (scene.isNew) clearAnswers();
     showProblems(refused.problems);
     if (!refused.problems.length) say(refused.error);
     byId("words").textContent = refused.error;
@@ -150,7 +151,16 @@ async function analyse() {
   showsAnswerTo(text, "reactions", "words");
   state(`Analysed in ${Math.round(ms)} ms`);
   if (!scene.isAnalysed) performance.mark("pfaff-verdict");
-  scene.isAnalysed = true;
+  Object.assign(scene, { isAnalysed: true, isNew: false });
+}
+
+/** Removes the answers to a former scene. */
+function clearAnswers() {
+  byId("reactions").replaceChildren();
+  byId("words").textContent = "";
+  byId("hint").classList.remove("fits");
+  picture.clear();
+  report.clear();
 }
 
 async function drawStart(text = scene.text) {
@@ -186,8 +196,20 @@ const store = afterPause(ANALYSE_PAUSE, () => {
   }
 });
 
+/** Removes a scene from the address, because it is no longer the scene of the page. */
+function clearAddress() {
+  if (location.hash && !isEmbedded) history.replaceState(null, "", location.pathname + location.search);
+}
+
+/** Links an embedded page to the page with all tools. */
+const linkFullPage = afterPause(ANALYSE_PAUSE, async () => {
+  byId("full").href = location.pathname + (await toAddress(scene) ?? "");
+});
+
 function onText(text) {
   scene.text = text;
+  clearAddress();
+  if (isEmbedded) linkFullPage();
   greyStale();
   checkSoon();
   refreshSoon();
@@ -196,22 +218,26 @@ function onText(text) {
 
 /** Shows another scene. */
 function open({ name, text }, { isFromAddress = false } = {}) {
-  Object.assign(scene, { name, text, report: null });
+  Object.assign(scene, { name, text, page: null, report: null, isNew: true });
   byId("name").value = name;
   editor?.open(text);
   files.clear();
   greyStale();
   byId("message").hidden = true;
   document.body.classList.toggle("offered", isFromAddress);
+  selectEverywhere(null);
+  if (isEmbedded) linkFullPage();
   if (!isFromAddress) {
     refresh();
     store();
     return;
   }
+  clearAnswers();
   state("Not analysed");
   say("This scene comes from the address.", button("Analyse it", () => {
     document.body.classList.remove("offered");
     byId("message").hidden = true;
+    clearAddress();
     refresh();
     store();
   }, { className: "main" }));
@@ -225,7 +251,7 @@ function selectEverywhere(name, { isFromText = false } = {}) {
   verdicts.select(name);
   picture.select(name);
   report.select(name);
-  const place = placeOf(scene.text, name);
+  const place = name && placeOf(scene.text, name);
   if (place && !isFromText) editor?.select(place);
 }
 
@@ -360,7 +386,9 @@ async function askQuestion() {
 async function askDifference() {
   const { text } = scene;
   const scenes = [source(), { name: `${scene.name}-2.toml`, text: second.text }];
-  const { done, refused } = await run("diff", {}, scenes, { stop: byId("stop-ask"), state: byId("difference-state") });
+  const { done, refused } = await run("diff", {}, scenes, {
+    stop: byId("stop-difference"), state: byId("difference-state"),
+  });
   byId("difference-words").textContent = done?.text ?? refused?.error ?? "";
   showsAnswerTo(text, "difference-words");
 }
@@ -377,7 +405,7 @@ async function openFile(file) {
   open(opened);
   if (opened.format) {
     const title = `Imported from ${opened.format}: ${opened.remarks.length} remarks`;
-    say(saidList(title, opened.remarks));
+    say(listOf(title, opened.remarks));
   }
 }
 
@@ -492,15 +520,13 @@ async function start() {
   if (isEmbedded) {
     byId("full").hidden = false;
     byId("full").target = "_blank";
-    byId("full").href = `${location.pathname}${location.hash}`;
   }
   const { Editor } = await editorScript;
   editor = new Editor({ parent: byId("editor"), text: scene.text, label: "Scene", module, onChange: onText, onCursor });
   if (!isOffered()) check();
   listQuestions();
   addEventListener("hashchange", async () => {
-    const [next, options] = await firstScene();
-    if (location.hash) open(next, options);
+    if (location.hash) open(...await firstScene());
   });
   const isSecure = location.protocol === "https:" || ["localhost", "127.0.0.1"].includes(location.hostname);
   if (isSecure && "serviceWorker" in navigator) navigator.serviceWorker.register("sw.js");

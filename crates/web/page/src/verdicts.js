@@ -19,7 +19,11 @@ function tiles({ rank, rows, redundancy, mobility, reactions }) {
     make("div", {}, make("dt", { textContent: name }), make("dd", { textContent: value }))));
 }
 
-const boundsOf = ({ bounds }) => (bounds ? `${number(bounds.lowest)} … ${number(bounds.highest)}` : "–");
+function boundsOf({ bounds }) {
+  if (!bounds) return "–";
+  const [lowest, highest] = [number(bounds.lowest), number(bounds.highest)];
+  return lowest === highest ? lowest : `${lowest} … ${highest}`;
+}
 
 /** What is known of one reaction. */
 function reasons(reaction, { dependencies = [], mixing = [] }) {

@@ -40,6 +40,7 @@ export const address = (server) => on(server, async (visit) => {
   await other.getByRole("button", { name: "Analyse it" }).click();
   await other.waitForSelector(".verdicts");
   assert.equal(await other.locator("#name").inputValue(), "carriage");
+  assert.equal(await other.evaluate(() => location.hash), "", "a reload shows the stored scene");
   return `${shared.length} characters`;
 });
 
@@ -67,9 +68,11 @@ export const droppedFile = (server) => on(server, async (visit) => {
   await page.evaluate((text) => {
     const data = new DataTransfer();
     data.items.add(new File([text], "arm.urdf"));
-    document.getElementById("editor").dispatchEvent(new DragEvent("drop", { dataTransfer: data, bubbles: true, cancelable: true }));
+    document.querySelector("#editor .cm-content").dispatchEvent(new DragEvent("drop", { dataTransfer: data, bubbles: true, cancelable: true }));
   }, URDF);
   await page.locator(".verdicts", { hasText: "shoulder" }).waitFor();
+  assert.match(await visit.text(), /^# Imported from arm\.urdf/);
+  assert.doesNotMatch(await visit.text(), /<robot/);
 });
 
 export const storedScene = (server) => on(server, async (visit) => {
@@ -108,7 +111,7 @@ export const embedded = (server) => on(server, async (visit) => {
   await page.waitForFunction(() => document.getElementById("start").contentWindow?.pfaffReport);
   assert.deepEqual(await page.getByRole("tab").allInnerTexts(), ["Scene", "Verdicts", "Text"]);
   assert.equal(await page.locator(".tools").isVisible(), false);
-  await page.locator("#full").waitFor();
+  await page.waitForFunction(() => document.getElementById("full").href.includes("#1="));
 });
 
 export const withoutNetwork = (server) => on(server, async (visit) => {
