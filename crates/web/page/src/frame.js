@@ -31,8 +31,11 @@ export class Frame {
 
   /**
    * @param {HTMLIFrameElement} element
-   * @param {{isPicture?: boolean, at?: string, on?: Record<string, (detail: object) => boolean | void>}} options
-   *   `at` is the section that is visible first; `on` has a function for each event of the page; the function returns whether it acts
+   * @param {object} options
+   * @param {boolean} [options.isPicture] whether only the picture of the page is shown
+   * @param {string} [options.at] the section that is visible first
+   * @param {Record<string, (detail: object) => boolean | void>} [options.on] a function for each
+   *   event of the page; it returns whether it acts
    */
   constructor(element, { isPicture = false, at = null, on = {} } = {}) {
     Object.assign(this, { element, isPicture, at, on });

@@ -8,8 +8,8 @@ export class Tabs {
   #tabs = new Map();
 
   /**
-   * @param {[id: string, label: string, kind: "tab" | "narrow" | "never"][]} views a view of the kind
-   *   `narrow` is a tab on a narrow page; otherwise it is always visible, as a view of the kind `never`
+   * @param {[id: string, label: string, kind: "tab" | "narrow" | "never"][]} views
+   *   A view of the kind `narrow` is a tab only on a narrow page. A view without a tab is visible.
    */
   constructor(list, views, onShow) {
     Object.assign(this, { list, views, onShow });

@@ -78,10 +78,16 @@ const wasi = new WASI([], [], [
   preopened,
 ], { debug: false });
 
+/** The promise of the instance. */
 let instance;
 
-function answer(request) {
-  const { memory, reserve, call, reply } = instance.exports;
+async function instantiated(wasm) {
+  const made = await WebAssembly.instantiate(wasm, { wasi_snapshot_preview1: wasi.wasiImport });
+  wasi.initialize(made);
+  return made;
+}
+
+function answer({ memory, reserve, call, reply }, request) {
   const bytes = new TextEncoder().encode(JSON.stringify(request));
   new Uint8Array(memory.buffer, reserve(bytes.length), bytes.length).set(bytes);
   const length = call();
@@ -90,11 +96,11 @@ function answer(request) {
 
 onmessage = async ({ data: { wasm, request } }) => {
   try {
-    instance ??= await WebAssembly.instantiate(wasm, { wasi_snapshot_preview1: wasi.wasiImport })
-      .then((made) => (wasi.initialize(made), made));
+    if (wasm) instance = instantiated(wasm);
+    const { exports } = await instance;
     if (!request) return;
     out.contents.clear();
-    const reply = answer(request);
+    const reply = answer(exports, request);
     for (const file of out.contents.values()) file.send?.(true);
     postMessage({ reply });
   } catch (error) {

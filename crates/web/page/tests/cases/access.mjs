@@ -21,6 +21,7 @@ async function clean({ address }, options) {
     const check = async (what) => found.push(...(await findings(page)).map((own) => `${what}: ${own}`));
     await page.getByRole("button", { name: "Why: lower" }).click();
     await check("verdicts");
+    if (await page.locator("#compare").isVisible()) await page.locator("#compare").click();
     for (const tab of await page.getByRole("tab").all()) {
       await tab.click();
       await check(await tab.innerText());

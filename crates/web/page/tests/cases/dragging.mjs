@@ -3,14 +3,14 @@
 import assert from "node:assert/strict";
 import { Visit } from "../browser.mjs";
 
-/** Largest times of 95 % of the steps (ms): of all planar examples of at most 40 rows, and of the others. */
+/** Largest times of 95 % of the steps (ms): of planar examples with few rows, and of the others. */
 const PLANAR_MOST = 100;
 const MOST = 300;
 const PLANAR_ROWS = 40;
 /** Steps of the pointer. */
 const STEPS = 25;
 
-/** Returns a place of the page on a body that is far from the symbols of joints, and listens to the steps. */
+/** Returns a place of the page on a body, far from symbols of joints, and listens to the steps. */
 const prepare = (page, index) => page.evaluate((body) => {
   const frame = document.getElementById("start");
   const { picture, data } = frame.contentWindow.pfaffReport;

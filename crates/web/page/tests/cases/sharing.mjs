@@ -44,6 +44,11 @@ export const address = (server) => on(server, async (visit) => {
   return `${shared.length} characters`;
 });
 
+export const damagedAddress = (server) => on(server, async (visit) => {
+  const page = await visit.open("#1=abc");
+  await page.locator("#message", { hasText: "damaged" }).waitFor();
+});
+
 export const longSceneHasNoAddress = (server) => on(server, async (visit) => {
   const page = await visit.example("door");
   const noise = Array.from({ length: 9000 }, () => Math.random().toString(36)[2] ?? "x").join("");
