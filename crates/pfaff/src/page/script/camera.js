@@ -73,7 +73,7 @@ class Camera {
     return this.isPerspective ? this.eye / Math.max(this.eye - near, NEAREST * this.eye) : 1;
   }
 
-  /** The point of space that is shown at a place of the page (px), so near (m, from the focus towards the eye). */
+  /** The point of space at a place of the page (px), so near (m, from the focus to the eye). */
   pointAt([x, y], near) {
     const scale = this.scale * this.largerAt(near);
     const across = plus(this.focus, this.right, (x - this.origin[0]) / scale);

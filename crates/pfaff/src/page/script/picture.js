@@ -57,7 +57,7 @@ class Picture {
     this.names = new Names(this);
   }
 
-  /** Shows another start of a mechanism with the same bodies and joints. The view stays during a drag. */
+  /** Shows another start of the same bodies and joints. The view stays during a drag. */
   startFrom(fresh) {
     data.drawing = fresh.drawing;
     fresh.drawing.bodies.forEach((body, k) => bodies[k].renew(body));

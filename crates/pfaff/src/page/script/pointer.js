@@ -20,7 +20,7 @@ function announce(what, detail) {
 
 /** A body that a pointer drags. The page around this page moves the body. */
 class Drag {
-  /** The drag that begins at a place of the page, or `null` if no page around this page moves bodies. */
+  /** The drag from a place of the page; `null` if no page around this page moves bodies. */
   static from(picture, at) {
     const index = targetAt(picture, at)?.body;
     const isTaken = index !== undefined && announce("grab", { body: bodies[index].name });

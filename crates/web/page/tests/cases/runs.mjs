@@ -88,6 +88,8 @@ export const otherQuestion = (server) => on(server, "three-cranks", async (_, pa
 export const compare = (server) => on(server, "door", async (_, page) => {
   await page.getByRole("button", { name: "Compare", exact: true }).click();
   await page.locator("#second .cm-content").waitFor();
+  const status = await page.locator("#status").boundingBox();
+  assert.ok(status.y + status.height <= page.viewportSize().height, "the editors leave room");
   await page.getByRole("tab", { name: "Verdicts" }).click();
   await page.getByRole("button", { name: /Replace in place/ }).click();
   await page.getByRole("tab", { name: "Difference" }).click();
