@@ -68,11 +68,23 @@ class Camera {
     this.eye = this.isPerspective ? EYE * this.reach : Infinity;
   }
 
+  /** How much larger a thing looks than at the focus, so near (m). */
+  largerAt(near) {
+    return this.isPerspective ? this.eye / Math.max(this.eye - near, NEAREST * this.eye) : 1;
+  }
+
+  /** The point of space at a place of the page (px), so near (m, from the focus to the eye). */
+  pointAt([x, y], near) {
+    const scale = this.scale * this.largerAt(near);
+    const across = plus(this.focus, this.right, (x - this.origin[0]) / scale);
+    return plus(plus(across, this.up, (this.origin[1] - y) / scale), this.towards, near);
+  }
+
   /** A point on the page (px), how near it is (m, from the focus towards the eye), and how much larger it looks than at the focus. */
   project(p) {
     const [x, y, z] = [p[0] - this.focus[0], p[1] - this.focus[1], p[2] - this.focus[2]];
     const near = this.towards[0] * x + this.towards[1] * y + this.towards[2] * z;
-    const larger = this.isPerspective ? this.eye / Math.max(this.eye - near, NEAREST * this.eye) : 1;
+    const larger = this.largerAt(near);
     const scale = this.scale * larger;
     return [
       this.origin[0] + scale * (this.right[0] * x + this.right[1] * y + this.right[2] * z),

@@ -517,15 +517,33 @@ function setUpRun(picture, handlers) {
   setUpKeys();
 }
 
+/** Events of a page that shows this page in a frame. */
+function listenToHost(picture, handlers) {
+  document.addEventListener("pfaff:select", ({ detail }) => {
+    const index = joints.findIndex(({ name }) => name === detail.joint);
+    if (index >= 0) handlers.joint?.(index);
+    picture.select(index);
+  });
+  document.addEventListener("pfaff:start", ({ detail }) => picture.startFrom(detail));
+}
+
 function start() {
   setUpTheme();
   setUpPrint();
   if (!frameCount) return;
   const handlers = {};
   const picture = new Picture(byId("picture"), {
-    onJoint: (index) => handlers.joint?.(index),
-    onBody: (index) => handlers.body?.(index),
+    onJoint: (index) => {
+      handlers.joint?.(index);
+      picture.select(index);
+      announce("selected", { joint: joints[index].name });
+    },
+    onBody: (index) => {
+      handlers.body?.(index);
+      announce("selected", { body: bodies[index].name });
+    },
   });
+  listenToHost(picture, handlers);
   setUpOptions(picture);
   setUpViews(picture);
   setUpSave(picture);

@@ -32,6 +32,19 @@ class Picture {
     this.t = tFirst;
     this.camera = new Camera();
     this.brush = new Brush(canvas);
+    this.drag = null;
+    this.build();
+    this.measure();
+    this.large = this.largeLoads();
+    listen(this, handlers);
+    addEventListener("themechange", () => this.recolour());
+    matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => this.recolour());
+    new ResizeObserver(() => this.resize()).observe(canvas);
+    this.resize();
+  }
+
+  /** Prepares what the data of the drawing state. */
+  build() {
     this.sites = joints.map((joint) => ({
       joint,
       place: placeFinder(joint.site.place),
@@ -41,14 +54,24 @@ class Picture {
       wheels: joint.site.wheels.map(wheelOf),
     }));
     if (view) bodies.forEach((body) => defineLazily(body, "solid", () => solidOf(body.outline)));
-    this.measure();
-    this.large = this.largeLoads();
     this.names = new Names(this);
-    listen(this, handlers);
-    addEventListener("themechange", () => this.recolour());
-    matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => this.recolour());
-    new ResizeObserver(() => this.resize()).observe(canvas);
-    this.resize();
+  }
+
+  /** Shows another start of the same bodies and joints. The view stays during a drag. */
+  startFrom(fresh) {
+    data.drawing = fresh.drawing;
+    fresh.drawing.bodies.forEach((body, k) => bodies[k].renew(body));
+    fresh.joints.forEach((joint, k) => Object.assign(joints[k], joint, { site: fresh.drawing.sites[k] }));
+    const offsets = this.names.all.map(({ offset }) => offset);
+    this.build();
+    this.names.all.forEach((name, k) => Object.assign(name, { offset: offsets[k] ?? name.offset }));
+    if (!this.drag) {
+      this.measure();
+      this.fit();
+    }
+    this.paint();
+    if (this.drag) this.drag.announce();
+    else this.names.later();
   }
 
   /** All points at an instant. */

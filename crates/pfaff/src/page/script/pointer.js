@@ -10,6 +10,47 @@ const TURN = 0.009;
 const KEY_TURN = Math.PI / 36;
 const KEY_MOVE = 40;
 
+/**
+ * Sends an event to a page that shows this page in a frame.
+ * @returns {boolean} whether that page acts on the event
+ */
+function announce(what, detail) {
+  return !document.dispatchEvent(new CustomEvent(`pfaff:${what}`, { detail, cancelable: true }));
+}
+
+/** A body that a pointer drags. The page around this page moves the body. */
+class Drag {
+  /** The drag from a place of the page; `null` if no page around this page moves bodies. */
+  static from(picture, at) {
+    const index = targetAt(picture, at)?.body;
+    const isTaken = index !== undefined && announce("grab", { body: bodies[index].name });
+    return isTaken ? new Drag(picture, bodies[index], at) : null;
+  }
+
+  constructor(picture, body, at) {
+    const pose = picture.poses.of(body.index);
+    this.near = picture.camera.project(pose.r)[2];
+    const arm = minus(picture.camera.pointAt(at, this.near), pose.r);
+    const columns = [0, 1, 2].map((k) => pose.rows.map((row) => row[k]));
+    Object.assign(this, { picture, body, at, arm: turnedBy(columns, arm) });
+  }
+
+  /** Announces where the body is and where its dragged point should be, in ground axes (m). */
+  announce() {
+    const { picture, body } = this;
+    const pose = poseOf(body.index, picture.instant);
+    announce("drag", {
+      body: body.name,
+      centre: pose.r,
+      frame: pointOn(pose, body.origin),
+      at: pointOn(pose, this.arm),
+      to: picture.camera.pointAt(this.at, this.near),
+      size: 2 * Math.max(...body.outline.map(norm), 0),
+      ...(view ? { orientation: CURVES.slice(3, 7).map((name) => body[name][0]) } : { angle: body.angle[0] }),
+    });
+  }
+}
+
 function listen(picture, handlers) {
   const { canvas } = picture;
   const pointers = new Map();
@@ -26,6 +67,8 @@ function listen(picture, handlers) {
     canvas.setPointerCapture(event.pointerId);
     pointers.set(event.pointerId, placeOf(event));
     moved = pointers.size > 1 ? Infinity : 0;
+    drop();
+    if (pointers.size === 1 && event.button === 0 && !event.shiftKey) picture.drag = Drag.from(picture, placeOf(event));
   });
   canvas.addEventListener("pointermove", (event) => {
     const at = placeOf(event);
@@ -46,10 +89,20 @@ function listen(picture, handlers) {
     }
     pointers.set(event.pointerId, at);
     if (moved <= CLICK) return;
-    if (view && !event.shiftKey && event.buttons !== 2 && event.buttons !== 4) picture.orbitBy(-TURN * dx, TURN * dy);
+    if (picture.drag) {
+      picture.drag.at = at;
+      picture.drag.announce();
+    } else if (view && !event.shiftKey && event.buttons !== 2 && event.buttons !== 4) picture.orbitBy(-TURN * dx, TURN * dy);
     else picture.panBy(dx, dy);
   });
-  const gone = (event) => pointers.delete(event.pointerId);
+  const drop = () => {
+    if (picture.drag) announce("drop", { body: picture.drag.body.name, moved: moved > CLICK });
+    picture.drag = null;
+  };
+  const gone = (event) => {
+    pointers.delete(event.pointerId);
+    drop();
+  };
   canvas.addEventListener("pointerup", (event) => {
     if (pointers.size === 1 && moved <= CLICK) click(picture, placeOf(event), handlers);
     gone(event);

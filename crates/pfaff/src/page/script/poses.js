@@ -42,8 +42,16 @@ const turnedBy = (rows, p) => [dot3(rows[0], p), dot3(rows[1], p), dot3(rows[2],
 
 /** Bodies; their curves are decoded when somebody asks. */
 const bodies = data.drawing.bodies.map((body, index) => {
-  const own = { index, name: body.name, outline: body.outline.map(spatial), origin: spatial(body.frame ?? [0, 0, 0]) };
-  for (const name of CURVES) defineLazily(own, name, () => decode(body[name]));
+  const own = {
+    index,
+    name: body.name,
+    /** Takes other data of the same body. */
+    renew(fresh) {
+      Object.assign(own, { outline: fresh.outline.map(spatial), origin: spatial(fresh.frame ?? [0, 0, 0]) });
+      for (const name of CURVES) defineLazily(own, name, () => decode(fresh[name]));
+    },
+  };
+  own.renew(body);
   return own;
 });
 

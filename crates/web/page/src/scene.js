@@ -1,0 +1,70 @@
+// The scene of the page, where it comes from and where it is kept, and the texts that answers belong
+// to.
+
+import { byId } from "./dom.js";
+import { allExamples } from "./gallery.js";
+import { fromAddress } from "./share.js";
+
+const STORED = "pfaff-scene";
+
+export const isEmbedded = new URLSearchParams(location.search).has("embed");
+
+/** The scene with the page of its start and the report of its run. */
+export const scene = { name: "", text: "", page: null, report: null };
+
+/** The scene as requests contain it. */
+export const source = () => ({ name: `${scene.name || "scene"}.toml`, text: scene.text });
+
+/** The texts to which answers belong, by the identifiers of their elements. */
+const answered = new Map();
+
+/** Greys answers to another text. */
+export function greyStale() {
+  for (const [id, text] of answered) byId(id).classList.toggle("stale", text !== scene.text);
+}
+
+/** Notes that elements show answers to a text. */
+export function showsAnswerTo(text, ...ids) {
+  for (const id of ids) answered.set(id, text);
+  greyStale();
+}
+
+/** Keeps the scene in the browser. */
+export function store() {
+  if (isEmbedded) return;
+  try {
+    localStorage.setItem(STORED, JSON.stringify({ name: scene.name, text: scene.text }));
+  } catch {
+    // A browser may forbid storage. The scene is then not kept.
+  }
+}
+
+function stored() {
+  try {
+    return isEmbedded ? null : JSON.parse(localStorage.getItem(STORED));
+  } catch {
+    return null;
+  }
+}
+
+/** Removes a scene from the address, because it is no longer the scene of the page. */
+export function clearAddress() {
+  if (location.hash && !isEmbedded) history.replaceState(null, "", location.pathname + location.search);
+}
+
+/**
+ * Returns the scene of the address, an example that the address names, the kept scene, or the first
+ * example, and whether the scene comes from the address, and whether the address is damaged.
+ */
+export async function firstScene() {
+  let isDamaged = false;
+  try {
+    const shared = await fromAddress(location.hash);
+    if (shared) return { first: shared, isShared: true, isDamaged };
+  } catch {
+    isDamaged = true;
+  }
+  const named = location.hash.match(/^#example=([\w-]+)$/)?.[1];
+  const example = named && (await allExamples()).find(({ name }) => name === named);
+  return { first: example || stored() || FIRST_EXAMPLE, isShared: false, isDamaged };
+}
