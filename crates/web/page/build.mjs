@@ -116,7 +116,7 @@ const contents = files.map((file) => readFileSync(join(out, file)));
 const digest = createHash("sha256");
 contents.forEach((content) => digest.update(content));
 await bundle("sw", "sw.js", {
-  define: { VERSION: JSON.stringify(digest.digest("hex").slice(0, 16)), FILES: JSON.stringify(["./", ...files.slice(1)]) },
+  define: { VERSION: JSON.stringify(digest.digest("hex").slice(0, 16)), FILES: JSON.stringify(["./", ...files]) },
 });
 
 const sizes = files.map((file, k) =>

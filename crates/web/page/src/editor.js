@@ -112,7 +112,9 @@ export class Editor {
         ...closeBracketsKeymap, ...defaultKeymap, ...searchKeymap, ...historyKeymap,
         ...completionKeymap, ...lintKeymap, indentWithTab,
       ]),
-      EditorView.contentAttributes.of({ "aria-label": label, spellcheck: "false", tabindex: "0" }),
+      EditorView.contentAttributes.of({
+        "aria-label": label, "aria-describedby": "leave", spellcheck: "false", tabindex: "0",
+      }),
       EditorView.updateListener.of((update) => {
         if (update.docChanged && !this.isSilent) onChange(this.text);
         const isByUser = update.transactions.some((own) => own.isUserEvent("select"));

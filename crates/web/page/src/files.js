@@ -82,7 +82,7 @@ export async function read(file, module) {
 
 /** The remarks of an import and the parts of the model that the scene does not contain. */
 const remarksOf = ({ remarks, left_out: leftOut }) =>
-  [...remarks, ...leftOut.map(([what, places]) => `Not imported: ${what}: ${places.join(", ")}`)];
+  [...remarks, ...leftOut.map(([what, places]) => `Not imported: ${[what, places.join(", ")].filter(Boolean).join(": ")}`)];
 
 /** Files that are dropped on the page. */
 export function acceptDrops(shade, onFile) {

@@ -142,6 +142,7 @@ function showReport() {
 
 /** Removes the answers to a former scene. */
 function clearAnswers() {
+  showProblems([]);
   byId("reactions").replaceChildren();
   byId("words").textContent = "";
   byId("hint").classList.remove("fits");
@@ -167,6 +168,10 @@ const linkFullPage = afterPause(ANALYSE_PAUSE, async () => {
 
 function onText(text) {
   scene.text = text;
+  if (replaced !== null && text !== replaced) {
+    replaced = null;
+    hush();
+  }
   clearAddress();
   if (isEmbedded) linkFullPage();
   greyStale();
@@ -231,15 +236,16 @@ function onCursor(position) {
 
 // Edits
 
+/** The text after a replacement whose message offers to undo it. */
+let replaced = null;
+
 async function replaceJoints({ replace }) {
   const { done, refused } = await module.ask({ call: "retype", scene: source(), replace });
   if (refused) say(refused.error);
   if (!done) return;
+  replaced = done;
   editor.replace(done);
-  const undo = button("Undo", () => {
-    editor.undo();
-    hush();
-  });
+  const undo = button("Undo", () => editor.undo());
   say(`Replaced in place: ${replace.map(({ joint }) => joint).join(", ")}.`, undo);
 }
 

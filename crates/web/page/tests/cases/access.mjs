@@ -44,6 +44,16 @@ export const light = (server) => clean(server, { colorScheme: "light" });
 export const dark = (server) => clean(server, { colorScheme: "dark" });
 export const narrow = (server) => clean(server, { viewport: { width: 390, height: 780 } });
 
+export const embedded = async ({ address }) => {
+  const visit = await Visit.begin(address, { viewport: { width: 640, height: 520 } });
+  try {
+    const page = await visit.open("?embed#example=truss");
+    assert.deepEqual(await findings(page), []);
+  } finally {
+    await visit.end();
+  }
+};
+
 export const keyboard = async ({ address }) => {
   const visit = await Visit.begin(address);
   try {

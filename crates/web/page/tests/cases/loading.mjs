@@ -3,7 +3,10 @@
 import assert from "node:assert/strict";
 import { Visit } from "../browser.mjs";
 
-/** Returns the median time until the first verdict (ms). */
+/**
+ * Returns the median time until the first verdict (ms). Chromium slows the thread of the page, but
+ * not its workers.
+ */
 async function firstVerdict(address, count, slower) {
   const times = [];
   for (let k = 0; k < count; k += 1) {
