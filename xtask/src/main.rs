@@ -37,6 +37,7 @@ const USAGE: &str = "usage: cargo xtask COMMAND
   browser --missing   what this machine lacks for it
   site                the playground and the book as static files, into target/site
   site --check        the same, compiled in a short time, with its tests in Node and Chromium
+  site --times        the published site with all its tests, also those of times
   site --missing      what this machine lacks for it
   cold-start          times of the commands, process included
   guards              what monitors cost in a run: the same run with them and compiled without
@@ -68,6 +69,7 @@ fn main() -> ExitCode {
         ["browser", "--missing"] => browser::missing(),
         ["site"] => site::write(site::Build::Small),
         ["site", "--check"] => site::check(),
+        ["site", "--times"] => site::measure(),
         ["site", "--missing"] => site::missing(),
         ["cold-start"] => cold_start::tell(),
         ["guards"] => guards::tell(),

@@ -90,17 +90,30 @@ pub(crate) fn write(build: Build) -> Result<String, String> {
 /// with those of the program that `cargo test` built.
 pub(crate) fn check() -> Result<String, String> {
     let written = write(Build::Quick)?;
+    tested(Build::Quick, &[])?;
+    Ok(written)
+}
+
+/// Writes the site as it is published, and also tests the times until the first verdict and between
+/// the steps of a drag.
+pub(crate) fn measure() -> Result<String, String> {
+    let written = write(Build::Small)?;
+    tested(Build::Small, &["--times"])?;
+    Ok(written)
+}
+
+fn tested(build: Build, options: &[&str]) -> Result<(), String> {
     let root = root();
     let target = target(&root)?;
     let tests = root.join("crates/web/page/tests");
     let program = Path::new(&target).join("debug/pfaff");
     run(Command::new("node")
         .arg(tests.join("native.mjs"))
-        .args([module_of(&target, Build::Quick), program]))?;
+        .args([module_of(&target, build), program]))?;
     run(Command::new("node")
         .arg(tests.join("all.mjs"))
-        .arg(Path::new(&target).join("site")))?;
-    Ok(written)
+        .arg(Path::new(&target).join("site"))
+        .args(options))
 }
 
 /// Compiles the module and returns its path.

@@ -31,8 +31,32 @@ pub(crate) fn placed(source: &Source, body: &str, pose: &Pose) -> Result<String,
     })?;
     let frames = assembled.dragged(found, |frame| pose.of(frame));
     let frames = frames.map_err(|e| start.refusal(e))?;
+    let frames: Vec<FramePose> = frames.into_iter().map(rounded).collect();
     let text = pfaff::scene::posed(&assembled.scene, &frames);
     text.map_err(|e| Refusal::input(e.to_string()).coded(e.code()))
+}
+
+/// Digits after the point of a number that is written (m, rad). The start corrects what is lost.
+const DIGITS: i32 = 12;
+
+/// Returns the frame without the noise of rounding.
+fn rounded(frame: FramePose) -> FramePose {
+    let scale = 10_f64.powi(DIGITS);
+    // The sum removes the sign of zero.
+    let round = |x: f64| (x * scale).round() / scale + 0.0;
+    match frame {
+        FramePose::Plane { position, angle } => FramePose::Plane {
+            position: position.map(round),
+            angle: round(angle),
+        },
+        FramePose::Space3 {
+            position,
+            orientation,
+        } => FramePose::Space3 {
+            position: position.map(round),
+            orientation: orientation.map(round),
+        },
+    }
 }
 
 impl Pose {
