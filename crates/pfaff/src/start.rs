@@ -246,6 +246,20 @@ impl JudgedStart {
 pub fn document_of(
     configuration: &ConfigurationAnalysis<'_>,
 ) -> Result<AnalysisDocument, StudyError> {
+    let mut document = verdicts_of(configuration)?;
+    let layout = configuration.mechanism.layout();
+    document.add_sensitivities(&configuration.sensitivities()?, layout);
+    Ok(document)
+}
+
+/// Works like [`document_of`], but without the sensitivity of the reactions to the data, which
+/// takes most of the time near a singular configuration.
+///
+/// # Errors
+/// Returns an error if a verdict cannot be explained.
+pub fn verdicts_of(
+    configuration: &ConfigurationAnalysis<'_>,
+) -> Result<AnalysisDocument, StudyError> {
     let layout = configuration.mechanism.layout();
     let name = configuration.scene.name();
     let mut document = AnalysisDocument::new(name, &configuration.analysis, None)
@@ -254,6 +268,5 @@ pub fn document_of(
     if let Some(explanation) = configuration.explanation()? {
         document.explain(&explanation, layout);
     }
-    document.add_sensitivities(&configuration.sensitivities()?, layout);
     Ok(document)
 }

@@ -9,9 +9,10 @@ use report::figures::{Labels, Marking, labelled_mechanism, png};
 use report::{Frame, Recording};
 
 use crate::configuration::ConfigurationAnalysis;
+use crate::error::StudyError;
 use crate::question::Control;
 use crate::refusal::Refusal;
-use crate::start::{Start, document_of};
+use crate::start::{Start, document_of, verdicts_of};
 
 /// Format of the drawing.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -65,10 +66,27 @@ impl Drawing {
         scale: Option<f64>,
         control: &Control<'_>,
     ) -> Result<Self, Refusal> {
+        Self::drawn(of, (form, scale), control, document_of)
+    }
+
+    /// Draws the page of a start while a user drags a body. The page has no sensitivities.
+    ///
+    /// # Errors
+    /// Returns an error if the scene has no start.
+    pub fn while_dragged(of: &Start<'_>, control: &Control<'_>) -> Result<Self, Refusal> {
+        Self::drawn(of, (Form::Page, None), control, verdicts_of)
+    }
+
+    fn drawn(
+        of: &Start<'_>,
+        (form, scale): (Form, Option<f64>),
+        control: &Control<'_>,
+        document: impl Fn(&ConfigurationAnalysis<'_>) -> Result<AnalysisDocument, StudyError>,
+    ) -> Result<Self, Refusal> {
         let judged = of.judged(control)?;
         let start = of.configuration(&judged, 0.0, control, |_| ());
         let start = start.map_err(|e| of.refusal(e))?;
-        let document = document_of(&start).map_err(|e| of.refusal(e))?;
+        let document = document(&start).map_err(|e| of.refusal(e))?;
         let (mut pixels, mut boxes) = (None, String::new());
         let content = match form {
             Form::Page => page(&start, &document, &control.provenance.into()).into_bytes(),

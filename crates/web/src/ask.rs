@@ -118,10 +118,25 @@ pub(crate) fn answered(asked: &Ask) -> Result<String, Refusal> {
     serde_json::to_string(&answered).map_err(|e| Refusal::stopped(e.to_string()))
 }
 
-/// Draws the start of a scene.
-pub(crate) fn drawn(source: &Source, form: Form) -> Result<String, Refusal> {
-    let drawing = Drawing::new(&start(source), form, None, &Control::quiet())?;
-    Ok(String::from_utf8_lossy(&drawing.content).into_owned())
+/// Returns the page of the start of a scene.
+pub(crate) fn page(source: &Source, is_dragged: bool) -> Result<String, Refusal> {
+    let (start, control) = (start(source), Control::quiet());
+    let drawing = if is_dragged {
+        Drawing::while_dragged(&start, &control)?
+    } else {
+        Drawing::new(&start, Form::Page, None, &control)?
+    };
+    Ok(text(&drawing))
+}
+
+/// Returns the start of a scene as an SVG picture.
+pub(crate) fn picture(source: &Source) -> Result<String, Refusal> {
+    let drawing = Drawing::new(&start(source), Form::Svg, None, &Control::quiet())?;
+    Ok(text(&drawing))
+}
+
+fn text(drawing: &Drawing) -> String {
+    String::from_utf8_lossy(&drawing.content).into_owned()
 }
 
 /// Writes the progress as one line of JSON to the standard output, which the page reads.

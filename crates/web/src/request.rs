@@ -46,7 +46,12 @@ enum Request {
         replace: Vec<Replacement>,
     },
     /// The start as a page.
-    Page { scene: Source },
+    Page {
+        scene: Source,
+        /// Whether the user drags a body, so that the page must come soon.
+        #[serde(default)]
+        dragged: bool,
+    },
     /// The start as an SVG picture.
     Picture { scene: Source },
     /// The text of a scene from a robot model.
@@ -108,8 +113,8 @@ fn answered(request: Request) -> Result<String, Refusal> {
         Request::Hover { text, offset } => json(&keys::hover(&text, offset)),
         Request::Place { scene, body, pose } => json(&drag::placed(&scene, &body, &pose)?),
         Request::Retype { scene, replace } => json(&with_types(&scene, &replace)?),
-        Request::Page { scene } => json(&ask::drawn(&scene, pfaff::view::Form::Page)?),
-        Request::Picture { scene } => json(&ask::drawn(&scene, pfaff::view::Form::Svg)?),
+        Request::Page { scene, dragged } => json(&ask::page(&scene, dragged)?),
+        Request::Picture { scene } => json(&ask::picture(&scene)?),
         Request::Import { name, text } => json(&imported(&name, &text)?),
         Request::Explain { code } => json(&explain::words(explain::entry(&code)?)),
     }

@@ -32,6 +32,7 @@ pub(super) struct PreparedRun {
     /// Indices of the requested reactions in this mechanism.
     pub(super) reactions: Vec<Option<usize>>,
     /// The generated code of the run, if it uses generated code.
+    #[cfg_attr(target_family = "wasm", allow(dead_code))]
     pub(super) code: Option<Tape>,
 }
 

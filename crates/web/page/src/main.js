@@ -125,7 +125,7 @@ async function analyse() {
 }
 
 async function drawStart() {
-  const request = { call: "page", scene: source() };
+  const request = { call: "page", scene: source(), dragged: scene.beforeDrag !== undefined };
   const { done } = await module.ask(request, { kind: "page", urgent: true });
   if (!done) return;
   scene.page = done;
