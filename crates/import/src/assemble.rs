@@ -41,6 +41,11 @@ pub(crate) fn gap(model: &Model) -> f64 {
     gaps.iter().map(Gap::size).fold(0.0, f64::max)
 }
 
+/// Returns the unit of gaps between points (m).
+pub(crate) fn size(model: &Model) -> f64 {
+    Tree::new(model).size
+}
+
 /// Returns the poses of the links for a guess of coordinate changes.
 pub(crate) fn poses(model: &Model, guess: &[(usize, usize, f64)]) -> Vec<Isometry3<f64>> {
     State::new(model, guess).poses(model)
@@ -68,9 +73,11 @@ pub(crate) fn assemble(
         return Err(AssemblyFailure::TooLarge(n));
     }
     let first = State::new(model, guess);
-    let mut best = first.search(model, &tree.holding(held));
+    // A requested pose is not replaced by a pose far away that leaves a gap.
+    let needs_exact = !held.is_empty();
+    let mut best = first.search(model, &tree.holding(held), needs_exact);
     if best.1 > ASSEMBLED && !held.is_empty() {
-        let free = first.search(model, &tree);
+        let free = first.search(model, &tree, needs_exact);
         // If neither search closes the loops because the data have too few digits, the pose with
         // the requested values is used.
         if free.1 <= ASSEMBLED || best.1 > CLOSED {
@@ -160,8 +167,9 @@ impl State {
     }
 
     /// Searches from this state. Returns the state with the smallest gap, the gap, and a
-    /// description of how the state was found.
-    fn search(&self, model: &Model, tree: &Tree) -> (Self, f64, &'static str) {
+    /// description of how the state was found. If `needs_exact` is true, a state that was found at
+    /// random must close the loops.
+    fn search(&self, model: &Model, tree: &Tree, needs_exact: bool) -> (Self, f64, &'static str) {
         let mut best = self.clone();
         let mut least = best.descend(model, tree, None);
         let mut way = "from the guess";
@@ -180,7 +188,7 @@ impl State {
             let mut state = self.clone();
             state.shake(model, tree, &mut random);
             let found = state.descend(model, tree, None);
-            if found < least {
+            if found <= ASSEMBLED || (found < least && !needs_exact) {
                 (best, least, way) = (state, found, "from another guess, found at random");
             }
         }

@@ -164,13 +164,15 @@ pub fn import(name: &str, text: &str, options: &Options) -> Result<ImportedScene
     check(&model, files.root(), &mut findings);
     couple::settle(&mut model, &mut findings);
     let tolerance = tolerance::tolerances(&model, &mut findings);
+    let mut gap = 0.0;
     let motions = start::start(
         &mut model,
         options,
         tolerance[1],
         files.root(),
-        &mut findings,
+        (&mut gap, &mut findings),
     );
+    let tolerance = tolerance::covering(tolerance, gap, &model, &mut findings);
     if let Some(refusal) = refused(&mut findings) {
         return Err(refusal);
     }

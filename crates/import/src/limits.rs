@@ -51,11 +51,16 @@ pub(crate) const COARSEST: f64 = 1e-3;
 /// links that count as assembled. Test: `loops_are_closed_from_a_guess`.
 pub(crate) const ASSEMBLED: f64 = 1e-11;
 
-/// Largest gap of a loop that the import accepts with a note. Such a gap remains at the best pose
-/// if data with few digits are inconsistent. Unit: share of the size of the mechanism, or rad. Too
-/// small: models with rounded numbers are rejected. Too large: open loops count as closed. Test:
-/// `loops_that_cannot_close_are_refused`.
-pub(crate) const CLOSED: f64 = 1e-4;
+/// Largest gap of a loop that the import accepts, with a tolerance that covers the gap. Such a gap
+/// remains at the best pose if data with few digits are inconsistent. Unit: share of the size of
+/// the mechanism, or rad. Too small: models with rounded numbers are rejected. Too large: open
+/// loops count as closed. Test: `loops_that_cannot_close_are_refused`.
+pub(crate) const CLOSED: f64 = 1e-3;
+
+/// Tolerance of a scene whose loops leave gaps, for each largest gap. Unit: none. Too small: the
+/// start, which moves all links, finds no pose within the tolerance. Too large: rows that are
+/// independent count as redundant. Test: `loops_that_nearly_close_have_a_tolerance`.
+pub(crate) const COVERS: f64 = 3.0;
 
 /// Gap at the described pose. If the gap is larger, the import searches for another pose. Unit: as
 /// [`CLOSED`]. Too small: rounding errors move all links. Too large: the reader of scenes must move

@@ -19,7 +19,7 @@ pub(crate) fn start(
     options: &Options,
     angle: Option<f64>,
     root: Element,
-    findings: &mut Findings,
+    (gap, findings): (&mut f64, &mut Findings),
 ) -> Option<(Vec<Motion>, bool)> {
     let told = |state: &Keyframe| format!("`{}`", state.name);
     let Some(name) = &options.keyframe else {
@@ -30,7 +30,7 @@ pub(crate) fn start(
                 "Keyframes of the file (--keyframe NAME starts there): {names}."
             ));
         }
-        close(model, options, angle, root, findings);
+        *gap = close(model, options, angle, root, findings);
         return None;
     };
     if !options.pose.is_empty() {
@@ -167,17 +167,17 @@ fn short(x: f64) -> f64 {
 }
 
 /// Moves the links to a pose with closed loops, if the loops are open at the described pose or if a
-/// pose is requested.
+/// pose is requested. Returns the largest gap that remains, as a share of the size or in rad.
 fn close(
     model: &mut Model,
     options: &Options,
     angle: Option<f64>,
     root: Element,
     findings: &mut Findings,
-) {
+) -> f64 {
     let asked = asked(model, &options.pose, root, findings);
     if findings.has_problems() {
-        return;
+        return 0.0;
     }
     let given = asked.iter().map(|one| {
         let change = one.value - model.joints[one.joint].zero[one.coordinate];
@@ -191,7 +191,7 @@ fn close(
     }
     let open = assemble::gap(model);
     if asked.is_empty() && open <= OPEN {
-        return;
+        return 0.0;
     }
     let held: Vec<_> = given.iter().map(|&(joint, c, _)| (joint, c)).collect();
     match assemble::assemble(model, &guess, &held) {
@@ -219,6 +219,7 @@ fn close(
                 findings.leave_element(kind, root, &joint);
             }
             tell_moved(model, &asked, findings);
+            return found.gap;
         }
         Err(AssemblyFailure::Open(name, gap)) => {
             let message = format!(
@@ -240,6 +241,7 @@ fn close(
                 "Loops are open by {open} of the size or rad, and {n} coordinates are more than are tried.", open = rough(open)));
         }
     }
+    0.0
 }
 
 /// Reports the coordinates whose values differ from the requested values.

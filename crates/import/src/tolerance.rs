@@ -1,8 +1,9 @@
 //! Accuracy of lengths and directions of a scene: half a unit of the finest decimal place of the
 //! file.
 
+use crate::assemble;
 use crate::findings::Findings;
-use crate::limits::{COARSEST, FINEST};
+use crate::limits::{ASSEMBLED, COARSEST, COVERS, FINEST};
 use crate::mechanism::Model;
 use crate::write::number;
 
@@ -35,6 +36,35 @@ pub(crate) fn tolerances(model: &Model, findings: &mut Findings) -> [Option<f64>
         findings.remarks.push(remark);
     }
     found
+}
+
+/// Returns tolerances that cover the gap of the loops at the pose of the scene. The gap is a share of
+/// the size of the model, or in rad. A gap of rounding changes nothing.
+pub(crate) fn covering(
+    known: [Option<f64>; 2],
+    gap: f64,
+    model: &Model,
+    findings: &mut Findings,
+) -> [Option<f64>; 2] {
+    if gap <= ASSEMBLED {
+        return known;
+    }
+    let needed = [assemble::size(model), 1.0].map(|unit| one_digit_above(COVERS * gap * unit));
+    let covers = |k: usize| Some(known[k].map_or(needed[k], |known| known.max(needed[k])));
+    findings.remarks.push(format!(
+        "The loops of the file do not close exactly. The tolerances {} m and {} rad cover {COVERS} times the largest gap.",
+        number(needed[0]),
+        number(needed[1])
+    ));
+    [covers(0), covers(1)]
+}
+
+/// Rounds a positive number up to one digit.
+fn one_digit_above(x: f64) -> f64 {
+    let exponent = x.log10().floor();
+    let digit = (x / 10_f64.powf(exponent) * (1.0 - 1e-12)).ceil();
+    // The decimal text is the nearest number to the digit with its exponent.
+    format!("{digit}e{exponent}").parse().unwrap_or(x)
 }
 
 /// Size of a model, defined as the largest distance of a joint or link from the first link.

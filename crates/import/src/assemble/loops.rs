@@ -75,7 +75,7 @@ pub(super) struct Tree {
     /// For each link, the joints between the ground and the link.
     chains: Vec<Vec<usize>>,
     /// Length by which gaps between points are divided (m).
-    size: f64,
+    pub(super) size: f64,
 }
 
 impl Tree {

@@ -128,11 +128,37 @@ fn axes_are_snapped_before_loops_are_closed() {
         done.remarks
     );
     read(&done);
-    let refusal =
-        pfaff_import::import("file.urdf", &text, &options(Axes::Told)).expect_err("refused");
+    assert!(
+        !done.scene.contains("\nangle_tolerance = "),
+        "{}",
+        done.scene
+    );
+    // Otherwise the scene has a tolerance that covers the gap near the requested pose.
+    let told = import(&text, &options(Axes::Told));
+    let has = |words: &str| told.remarks.iter().any(|r| r.contains(words));
+    assert!(
+        has("found from the guess") && has("do not close exactly"),
+        "{:?}",
+        told.remarks
+    );
+    assert!(
+        has("`D` is tilted by 0.8 mrad") && has("--snap"),
+        "{:?}",
+        told.remarks
+    );
+    assert!(
+        told.scene.contains("\nangle_tolerance = 0.00"),
+        "{}",
+        told.scene
+    );
+    read(&told);
+    // A tilt of 9 mrad is not a rounded digit.
+    let tilted = text.replace("1.57 0 0", "1.58 0 0");
+    let refusal = pfaff_import::import("file.urdf", &tilted, &options(Axes::Told));
+    let refusal = refusal.expect_err("refused");
     assert_eq!(first(&refusal).0, "P0613");
     let help = refusal.diagnostics[0].help.as_deref().unwrap_or_default();
-    assert!(help.contains("`D`") && help.contains("--snap"), "{help}");
+    assert!(help.contains("--pose"), "{help}");
 }
 
 /// The end of a rod of 1 m moves by 2·sin(0.1) m for a rotation of 0.2 rad.

@@ -288,6 +288,37 @@ fn faults_have_codes_and_lines() {
     }
 }
 
+/// A closure that fails by a rounded digit is covered by the tolerance of the scene.
+#[test]
+fn loops_that_nearly_close_have_a_tolerance() {
+    let options = Options {
+        loops: Some(("loops.yaml".into(), text_of("urdf/triangle.yaml"))),
+        ..Options::default()
+    };
+    let far = |base: &str| {
+        let text = text_of("urdf/triangle.urdf").replace("\"5 0 0\"", &format!("\"{base} 0 0\""));
+        let done = pfaff_import::import("far.urdf", &text, &options).expect("imported");
+        let of = |key: &str| -> Option<f64> {
+            let line = done.scene.lines().find_map(|line| line.strip_prefix(key));
+            line.map(|value| value.parse().expect("a number"))
+        };
+        (of("tolerance = "), of("angle_tolerance = "))
+    };
+    assert_eq!(far("6"), (None, None));
+    // The bars of 3 m and 4 m are stretched; the gap of 0.3 mm or 3 mm is left.
+    for (base, gap) in [("7.0003", 3e-4), ("7.003", 3e-3)] {
+        let (length, angle) = far(base);
+        let length = length.expect("a tolerance");
+        assert!(
+            (2.9 * gap..=6.0 * gap).contains(&length),
+            "{base}: {length}"
+        );
+        assert!(angle.is_some_and(|angle| angle < length), "{angle:?}");
+        let digits = format!("{length:e}");
+        assert_eq!(digits.split('e').next().map(str::len), Some(1), "{digits}");
+    }
+}
+
 /// The joint does not move, so there is nothing to follow.
 #[test]
 fn a_fixed_joint_that_follows_another_one_is_a_note() {
