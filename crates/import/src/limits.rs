@@ -51,6 +51,11 @@ pub(crate) const COARSEST: f64 = 1e-3;
 /// links that count as assembled. Test: `loops_are_closed_from_a_guess`.
 pub(crate) const ASSEMBLED: f64 = 1e-11;
 
+/// Distance of a joint from its parent frame above which the distance is reported. Unit: m. Too
+/// small: rounded poses are reported. Too large: a joint at a wrong place is not reported. Test:
+/// `a_joint_far_from_its_parent_frame_is_told`.
+pub(crate) const APART: f64 = 1e-6;
+
 /// Largest gap of a loop that the import accepts, with a tolerance that covers the gap. Such a gap
 /// remains at the best pose if data with few digits are inconsistent. Unit: share of the size of
 /// the mechanism, or rad. Too small: models with rounded numbers are rejected. Too large: open

@@ -5,10 +5,12 @@ mod names;
 
 use std::collections::HashMap;
 
+use model::words::quantity;
 use nalgebra::{Isometry3, Vector3};
 
 use crate::extensions;
 use crate::findings::{Fault, Findings, NumberKind};
+use crate::limits::APART;
 use crate::mass::Mass;
 use crate::mechanism::{Coupling, Frame, JointKind, Link, Load, Model};
 use crate::solids::{FRICTION, assume_gravity, find_tree, joint_between, tensor, with_second_axis};
@@ -314,6 +316,13 @@ fn read_joint(
             None => Isometry3::identity(),
         },
     };
+    look_at_parent(
+        element,
+        name,
+        model.pose(links[1]) * in_second,
+        scope,
+        findings,
+    );
     let axis = |key: &str, findings: &mut Findings| {
         let child = element.child(key);
         child.map(|child| read_axis(child, name, &in_second, links, scope, model, findings))
@@ -352,6 +361,35 @@ fn read_joint(
         model.joints.push(joint);
     }
     Some(())
+}
+
+/// Reports a joint that is not at its parent frame. SDF places a joint at its child.
+fn look_at_parent(
+    element: Element,
+    name: &str,
+    joint: Isometry3<f64>,
+    scope: &Scope,
+    findings: &mut Findings,
+) {
+    let Some(parent) = element.child("parent") else {
+        return;
+    };
+    let parent = parent.text();
+    let frame = parent.text.trim();
+    let Some(pose) = scope
+        .frames
+        .pose(frame)
+        .filter(|_| !scope.links.contains_key(frame))
+    else {
+        return;
+    };
+    let apart = (pose.translation.vector - joint.translation.vector).norm();
+    if apart > APART {
+        findings.remarks.push(format!(
+            "The joint `{name}` is {} away from its parent frame `{frame}`: SDF places a joint at its child.",
+            quantity(apart, "m")
+        ));
+    }
 }
 
 /// The links of `<parent>` and `<child>`.

@@ -2,7 +2,7 @@
 
 use pfaff_import::{Axes, ImportedScene, Options};
 
-use super::{first, imported, numbers, options_of, read, refused, text_of, value};
+use super::{first, import_text, imported, numbers, options_of, read, refused, text_of, value};
 
 /// Number of bodies, and number of joints and couplings, counted by hand.
 const FILES: [(&str, [usize; 2]); 8] = [
@@ -101,6 +101,28 @@ fn assumptions_of_the_format_are_told() {
     );
     assert!(done.remarks.iter().any(|r| r.contains("no gravity")));
     assert_eq!(done.omissions[0].kind, "contacts of links");
+}
+
+/// A parent frame names only a link, so a joint far from the frame is probably not intended.
+#[test]
+fn a_joint_far_from_its_parent_frame_is_told() {
+    let text = |child: &str| {
+        format!(
+            "<sdf version='1.7'><model name='m'><link name='base'/><link name='arm'>{child}</link>\
+             <frame name='end' attached_to='base'><pose>2 0 0 0 0 0</pose></frame>\
+             <joint name='fix' type='fixed'><parent>world</parent><child>base</child></joint>\
+             <joint name='hinge' type='revolute'><parent>end</parent><child>arm</child>\
+             <axis><xyz>0 0 1</xyz></axis></joint></model></sdf>"
+        )
+    };
+    let told = |child: &str| {
+        let remarks = import_text(&text(child), &Options::default()).remarks;
+        remarks
+            .iter()
+            .any(|r| r.contains("`hinge` is 2 m away from its parent frame `end`"))
+    };
+    assert!(told(""));
+    assert!(!told("<pose>2 0 0 0 0 0</pose>"));
 }
 
 fn with_axes(file: &str, axes: Axes) -> ImportedScene {
