@@ -26,7 +26,8 @@ async function started(wasm, directory) {
   const { memory, reserve, call, reply } = instance.exports;
   return (request) => {
     const bytes = new TextEncoder().encode(JSON.stringify(request));
-    new Uint8Array(memory.buffer, reserve(bytes.length), bytes.length).set(bytes);
+    const at = reserve(bytes.length);
+    new Uint8Array(memory.buffer, at, bytes.length).set(bytes);
     const length = call();
     const { done, refused } = JSON.parse(new TextDecoder().decode(new Uint8Array(memory.buffer, reply(), length)));
     if (refused) throw new Error(`${request.call}: ${refused.error}`);

@@ -31,14 +31,18 @@ const toml = StreamLanguage.define({
     if (stream.eatSpace()) return null;
     if (stream.match(/^#.*/)) return "comment";
     if (stream.sol() && stream.match(/^\[\[?[^\]]*\]\]?/)) return "heading";
-    if (stream.match(/^[\w."-]+(?=\s*=)/)) return "propertyName";
+    // A word is read once, so that long lines take linear time.
+    if (stream.match(/^[\w.+-]+/)) {
+      const word = stream.current();
+      if (stream.match(/^\s*=/, false)) return "propertyName";
+      if (/^[+-]?(\d[\w.+-]*|inf|nan)$/.test(word)) return "number";
+      return /^(true|false)$/.test(word) ? "bool" : null;
+    }
     const quote = stream.match(/^("""|'''|"|')/);
     if (quote) {
       state.quote = quote[0];
       return "string";
     }
-    if (stream.match(/^[+-]?(\d[\w.+-]*|inf|nan)/)) return "number";
-    if (stream.match(/^(true|false)\b/)) return "bool";
     stream.next();
     return "punctuation";
   },

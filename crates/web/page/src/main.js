@@ -10,7 +10,8 @@ import { nameAt, placeOf } from "./names.js";
 import { listProblems, withFixes } from "./problems.js";
 import { Runs } from "./runs.js";
 import {
-  clearAddress, firstScene, greyStale, isEmbedded, scene, showsAnswerTo, source, store,
+  cleanName, cleanText, clearAddress, firstScene, greyStale, isEmbedded, scene, showsAnswerTo, source,
+  store,
 } from "./scene.js";
 import { toAddress } from "./share.js";
 import { Tabs } from "./tabs.js";
@@ -46,7 +47,7 @@ const report = new Frame(byId("report"), { at: "motion", on: { selected: selectF
 const runs = new Runs(wasm, {
   second: () => second.text,
   onReport: showReport,
-  onProblems: showProblems,
+  onProblems: (problems) => showRefusal(problems),
 });
 const ALWAYS = ["Verdicts", "Text", "Motion", "Files", "More", "Difference"];
 const tabs = new Tabs(byId("tabs"), [
@@ -71,7 +72,17 @@ async function check() {
   const { text } = scene;
   const request = { call: "diagnose", scene: source() };
   const { done } = await module.ask(request, { kind: "diagnose", urgent: true });
-  if (done && text === scene.text) showProblems(done);
+  if (!done || text !== scene.text) return;
+  // The analysis finds problems that a reading does not find.
+  const isWrong = done.some(({ severity }) => severity === "error");
+  const more = !isWrong && scene.refusal?.text === text ? scene.refusal.problems : [];
+  showProblems([...done, ...more]);
+}
+
+/** Shows problems that an answer found. They stay until the text changes. */
+function showRefusal(problems, text = scene.text) {
+  scene.refusal = { text, problems };
+  if (text === scene.text) showProblems(problems);
 }
 
 function showProblems(found) {
@@ -104,17 +115,19 @@ async function analyse() {
       state(all ? `Analysing: ${what} ${done} of ${all}` : `Analysing: ${what}`),
   });
   if (text !== scene.text || reply.superseded) return;
-  const { done, refused, stopped, ms } = reply;
+  const { done, refused, stopped, crashed, ms } = reply;
   if (stopped) state("Stopped");
+  if (crashed !== undefined) state("Failed");
+  if (!done && scene.isNew) clearAnswers();
   if (refused) {
     state("Not analysed");
-    if (scene.isNew) clearAnswers();
-    showProblems(refused.problems);
+    showRefusal(refused.problems, text);
     if (!refused.problems.length) say(refused.error);
     byId("words").textContent = refused.error;
     showsAnswerTo(text, "words");
   }
   if (!done) return;
+  scene.refusal = null;
   verdicts.show(done.document);
   byId("hint").classList.toggle("fits", done.document.mobility > 0);
   byId("words").textContent = done.text;
@@ -125,18 +138,20 @@ async function analyse() {
 }
 
 async function drawStart() {
+  const { text } = scene;
   const request = { call: "page", scene: source(), dragged: scene.beforeDrag !== undefined };
   const { done } = await module.ask(request, { kind: "page", urgent: true });
-  if (!done) return;
-  scene.page = done;
+  if (!done || text !== scene.text) return;
+  Object.assign(scene, { page: done, textOfPage: text });
   picture.show(done);
+  showsAnswerTo(text, "start");
   if (!scene.report && tabs.current === "motion") showReport();
 }
 
 /** Shows the report of the run; before a run, the page of the start. */
 function showReport() {
   const html = scene.report ?? scene.page;
-  showsAnswerTo(scene.report ? scene.textOfReport : scene.text, "report");
+  showsAnswerTo(scene.report ? scene.textOfReport : scene.textOfPage, "report");
   if (html && report.html !== html) report.show(html);
 }
 
@@ -172,7 +187,13 @@ function onText(text) {
     replaced = null;
     hush();
   }
-  clearAddress();
+  // Who types during a drag ends it.
+  scene.beforeDrag = undefined;
+  scene.isEdited = true;
+  if (!isOffered()) {
+    clearAddress();
+    state("Waiting");
+  }
   if (isEmbedded) linkFullPage();
   greyStale();
   checkSoon();
@@ -180,33 +201,42 @@ function onText(text) {
   storeSoon();
 }
 
-/** Shows another scene. A scene of the address is analysed when the user accepts it. */
-function open({ name, text }, isFromAddress = false) {
-  Object.assign(scene, { name, text, page: null, report: null, isNew: true });
+/**
+ * Shows another scene. A scene of the address is analysed when the user accepts it. An edited scene
+ * can be brought back.
+ */
+function open(next, { isFromAddress = false, keepsAddress = false } = {}) {
+  const former = scene.isEdited ? { name: scene.name, text: scene.text } : null;
+  const [name, text] = [cleanName(next.name), cleanText(next.text)];
+  Object.assign(scene, {
+    name, text, page: null, report: null, refusal: null, beforeDrag: undefined, isNew: true, isEdited: false,
+  });
   byId("name").value = name;
   editor?.open(text);
-  runs.files.clear();
+  runs.abandon();
+  if (!keepsAddress) clearAddress();
   greyStale();
   hush();
+  if (former) say(`Opened ${name}.`, button(`Back to ${former.name}`, () => open(former)));
   document.body.classList.toggle("offered", isFromAddress);
+  byId("offer").hidden = !isFromAddress;
   select(null);
   if (isEmbedded) linkFullPage();
-  const accept = () => {
-    document.body.classList.remove("offered");
-    refresh();
-    storeSoon();
-  };
   if (!isFromAddress) {
     accept();
     return;
   }
   clearAnswers();
   state("Not analysed");
-  say("This scene comes from the address.", button("Analyse it", () => {
-    hush();
-    clearAddress();
-    accept();
-  }, { className: "main" }));
+}
+
+/** Analyses the scene, which may come from an address. */
+function accept() {
+  document.body.classList.remove("offered");
+  byId("offer").hidden = true;
+  state("Waiting");
+  refresh();
+  storeSoon();
 }
 
 // Selection
@@ -253,11 +283,14 @@ const analyseAtRest = afterPause(REST, analyse);
 
 const dragging = new Dragging({
   async place(body, pose) {
-    scene.beforeDrag ??= scene.text;
+    const { text } = scene;
+    scene.beforeDrag ??= text;
     const request = { call: "place", scene: source(), body, pose };
     const { done, refused } = await module.ask(request, { urgent: true });
+    // The user has opened another scene or has typed.
+    if (text !== scene.text || scene.beforeDrag === undefined) return;
     if (refused) say(refused.error);
-    if (!done || done === scene.text) return;
+    if (!done || done === text) return;
     scene.text = done;
     editor?.preview(done);
     greyStale();
@@ -307,12 +340,16 @@ async function start() {
   setUpGallery((example) => open(example));
   byId("stop-analysis").addEventListener("click", () => module.stop());
   byId("compare").addEventListener("click", () => setCompare(byId("second").hidden));
-  byId("bounds").addEventListener("change", analyse);
+  byId("bounds").addEventListener("change", () => !isOffered() && analyse());
+  byId("accept").addEventListener("click", () => {
+    clearAddress();
+    accept();
+  });
 
   const openFirst = async () => {
     const { first, isShared, isDamaged } = await firstScene();
-    open(first, isShared);
-    if (isDamaged) say("The scene in the address is damaged.");
+    open(first, { isFromAddress: isShared, keepsAddress: true });
+    if (isDamaged) say("The scene in the address is damaged, or is not known.");
   };
   await openFirst();
   addEventListener("hashchange", () => location.hash && openFirst());

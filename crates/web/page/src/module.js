@@ -40,8 +40,10 @@ export class Module {
     });
   }
 
-  /** Ends the worker. What it sent stays. */
+  /** Ends the worker and drops what waits for it. What it sent stays. */
   stop() {
+    for (const own of this.#waiting.filter(({ kind }) => kind)) own.resolve({ stopped: true });
+    this.#waiting = this.#waiting.filter(({ kind }) => !kind);
     this.#end({ stopped: true });
   }
 

@@ -39,6 +39,12 @@ export class Runs {
     byId("question").replaceChildren(...options);
   }
 
+  /** Ends a run whose scene is no longer shown, and removes its files. */
+  abandon() {
+    if (this.#isRunning) this.#runner.stop();
+    this.files.clear();
+  }
+
   async simulate() {
     const { text } = scene;
     const { done, refused } = await this.#run("simulate", {}, [source()], "run");
@@ -67,6 +73,7 @@ export class Runs {
   async askDifference() {
     const other = { name: `${scene.name}-2.toml`, text: this.actions.second() };
     await this.#answer("diff", {}, [source(), other], "difference", "difference-words");
+    if (this.actions.second() !== other.text) showsAnswerTo(null, "difference-words");
   }
 
   async #answer(question, options, scenes, controls, place) {
@@ -96,7 +103,7 @@ export class Runs {
     this.#isRunning = false;
     stop.hidden = true;
     byId("progress").hidden = true;
-    const rows = this.files.rows ? ` Files contains ${this.files.rows} rows.` : "";
+    const rows = this.files.rows ? ` The tab Files has ${this.files.rows} rows.` : "";
     if (reply.stopped) line.textContent = `Stopped.${rows}`;
     else if (reply.crashed !== undefined) line.textContent = `Failed.${rows}`;
     else if (reply.refused) line.textContent = "";

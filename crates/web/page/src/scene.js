@@ -13,7 +13,14 @@ export const isEmbedded = new URLSearchParams(location.search).has("embed");
 export const scene = { name: "", text: "", page: null, report: null };
 
 /** The scene as requests contain it. */
-export const source = () => ({ name: `${scene.name || "scene"}.toml`, text: scene.text });
+export const source = () => ({ name: `${scene.name}.toml`, text: scene.text });
+
+/** A name that is a plain name of a file, also in a command. */
+export const cleanName = (name) =>
+  name.normalize().replace(/[^\p{L}\p{N}_.-]+/gu, "-").replace(/^[-.]+/, "") || "scene";
+
+/** A text as the editor counts it: with LF, and without halves of characters. */
+export const cleanText = (text) => (text.toWellFormed?.() ?? text).replace(/\r\n?/g, "\n");
 
 /** The texts to which answers belong, by the identifiers of their elements. */
 const answered = new Map();
@@ -41,7 +48,8 @@ export function store() {
 
 function stored() {
   try {
-    return isEmbedded ? null : JSON.parse(localStorage.getItem(STORED));
+    const { name, text } = isEmbedded ? {} : JSON.parse(localStorage.getItem(STORED));
+    return typeof name === "string" && typeof text === "string" ? { name, text } : null;
   } catch {
     return null;
   }
@@ -65,6 +73,8 @@ export async function firstScene() {
     isDamaged = true;
   }
   const named = location.hash.match(/^#example=([\w-]+)$/)?.[1];
-  const example = named && (await allExamples()).find(({ name }) => name === named);
+  const examples = named ? await allExamples().catch(() => []) : [];
+  const example = examples.find(({ name }) => name === named);
+  isDamaged ||= Boolean(named && !example);
   return { first: example || stored() || FIRST_EXAMPLE, isShared: false, isDamaged };
 }

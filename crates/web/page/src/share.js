@@ -4,8 +4,19 @@ const PREFIX = "#1=";
 /** The longest address of a scene (characters). Longer addresses are cut by some programs. */
 const LONGEST = 8192;
 
-const through = async (bytes, stream) =>
-  new Uint8Array(await new Response(new Blob([bytes]).stream().pipeThrough(stream)).arrayBuffer());
+/** The longest scene of an address (bytes). A short address can unpack to much more. */
+const LARGEST = 1 << 20;
+
+async function through(bytes, stream) {
+  const parts = [];
+  let size = 0;
+  for await (const part of new Blob([bytes]).stream().pipeThrough(stream)) {
+    size += part.length;
+    if (size > LARGEST) throw new Error("too large");
+    parts.push(part);
+  }
+  return new Uint8Array(await new Blob(parts).arrayBuffer());
+}
 
 /**
  * Returns the part of the address for a scene, or `null` if it would be too long.
@@ -13,6 +24,7 @@ const through = async (bytes, stream) =>
  */
 export async function toAddress({ name, text }) {
   const json = new TextEncoder().encode(JSON.stringify({ name, text }));
+  if (json.length > LARGEST) return null;
   const packed = await through(json, new CompressionStream("deflate-raw"));
   const binary = Array.from(packed, (byte) => String.fromCharCode(byte)).join("");
   const base64 = btoa(binary).replaceAll("+", "-").replaceAll("/", "_").replace(/=+$/, "");

@@ -3,7 +3,7 @@
 import { byId, download, make } from "./dom.js";
 import { acceptDrops, read } from "./files.js";
 import { listOf, say } from "./messages.js";
-import { scene, store } from "./scene.js";
+import { cleanName, scene, store } from "./scene.js";
 import { toAddress } from "./share.js";
 
 async function copy(text, what) {
@@ -65,8 +65,9 @@ export function setUpTools({ module, open, onTheme }) {
   on("copy-python", () =>
     copy(`import pfaff\n\nprint(pfaff.Scene.from_file("${scene.name}.toml").analyze())\n`, "Python"));
   byId("name").addEventListener("input", ({ target }) => {
-    scene.name = target.value.replace(/[^\w.-]/g, "-");
+    scene.name = cleanName(target.value);
     store();
   });
+  byId("name").addEventListener("change", ({ target }) => { target.value = scene.name; });
   setTheme(undefined, onTheme);
 }

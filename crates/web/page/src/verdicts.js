@@ -12,11 +12,13 @@ const number = (x) => (x === null || x === undefined ? "–"
 function tiles({ rank, rows, redundancy, mobility, reactions }) {
   const unique = reactions.filter(({ verdict }) => verdict === "unique").length;
   const facts = [
-    [`${unique} of ${reactions.length}`, "unique reactions"], [`${rank} of ${rows}`, "independent rows"],
-    [redundancy, "redundancy"], [mobility, "mobility"],
+    [`${unique} of ${reactions.length}`, "unique reactions", "Reactions that the rigid-body model determines"],
+    [`${rank} of ${rows}`, "independent rows", "Constraint equations that are independent"],
+    [redundancy, "redundancy", "Constraint equations that repeat others"],
+    [mobility, "mobility", "Independent motions, with all drives in place"],
   ];
-  return make("dl", { className: "tiles" }, ...facts.map(([value, name]) =>
-    make("div", {}, make("dt", { textContent: name }), make("dd", { textContent: value }))));
+  return make("dl", { className: "tiles" }, ...facts.map(([value, name, title]) =>
+    make("div", { title }, make("dt", { textContent: name }), make("dd", { textContent: value }))));
 }
 
 function boundsOf({ bounds }) {
@@ -88,10 +90,13 @@ export class Verdicts {
   #table(document) {
     const head = ["Joint or drive", "Type", "Reaction", "Why"];
     const rows = document.reactions.flatMap((reaction, index) => this.#row(reaction, document, index));
+    // A call has a limited number of arguments.
+    const body = make("tbody");
+    for (const row of rows) body.append(row);
     return make("table", { className: "verdicts" },
       make("caption", { className: "unseen", textContent: "Verdict for each reaction" }),
       make("thead", {}, make("tr", {}, ...head.map((text) => make("th", { scope: "col", textContent: text })))),
-      make("tbody", {}, ...rows));
+      body);
   }
 
   #row(reaction, document, index) {

@@ -89,7 +89,9 @@ async function instantiated(wasm) {
 
 function answer({ memory, reserve, call, reply }, request) {
   const bytes = new TextEncoder().encode(JSON.stringify(request));
-  new Uint8Array(memory.buffer, reserve(bytes.length), bytes.length).set(bytes);
+  // The memory may grow, and its buffer is then another one.
+  const at = reserve(bytes.length);
+  new Uint8Array(memory.buffer, at, bytes.length).set(bytes);
   const length = call();
   return JSON.parse(decoder.decode(new Uint8Array(memory.buffer, reply(), length)));
 }

@@ -21,7 +21,8 @@ wasi.initialize(instance);
 function send(request) {
   const { memory, reserve, call, reply } = instance.exports;
   const bytes = new TextEncoder().encode(JSON.stringify(request));
-  new Uint8Array(memory.buffer, reserve(bytes.length), bytes.length).set(bytes);
+  const at = reserve(bytes.length);
+  new Uint8Array(memory.buffer, at, bytes.length).set(bytes);
   const length = call();
   return JSON.parse(new TextDecoder().decode(new Uint8Array(memory.buffer, reply(), length)));
 }

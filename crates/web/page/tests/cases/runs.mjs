@@ -41,7 +41,7 @@ export const stopKeepsRows = (server) => on(server, "robot-trolley", async (visi
   await page.getByRole("button", { name: "Simulate" }).click();
   await page.locator("#run-state", { hasText: /\d{2,} rows/ }).waitFor();
   await page.locator("#stop-run").click();
-  await page.locator("#run-state", { hasText: /Stopped\. Files contains \d+ rows/ }).waitFor();
+  await page.locator("#run-state", { hasText: /Stopped\. The tab Files has \d+ rows/ }).waitFor();
   await page.getByRole("tab", { name: "Files" }).click();
   const rows = Number(await page.locator("tr", { hasText: "trajectory.csv" }).locator("td").first().textContent());
   assert.ok(rows > 10);
