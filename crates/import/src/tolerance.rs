@@ -38,8 +38,8 @@ pub(crate) fn tolerances(model: &Model, findings: &mut Findings) -> [Option<f64>
     found
 }
 
-/// Returns tolerances that cover the gap of the loops at the pose of the scene. The gap is a share of
-/// the size of the model, or in rad. A gap of rounding changes nothing.
+/// Returns tolerances that cover the gap of the loops at the pose of the scene. The gap is a share
+/// of the size of the model, or in rad. A gap of rounding changes nothing.
 pub(crate) fn covering(
     known: [Option<f64>; 2],
     gap: f64,
