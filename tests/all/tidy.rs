@@ -49,7 +49,10 @@ fn sources(folder: &Path, out: &mut Vec<PathBuf>) {
     for entry in fs::read_dir(folder).expect("readable").flatten() {
         let path = entry.path();
         let name = entry.file_name().to_string_lossy().into_owned();
-        if path.is_dir() && !["target", "generated", "definitions", "ui"].contains(&name.as_str()) {
+        if path.is_dir()
+            && !["target", "node_modules", "generated", "definitions", "ui"]
+                .contains(&name.as_str())
+        {
             sources(&path, out);
         } else if name.ends_with(".rs") {
             out.push(path);
@@ -236,7 +239,10 @@ fn pages(folder: &Path, out: &mut Vec<PathBuf>) {
     for entry in fs::read_dir(folder).expect("readable").flatten() {
         let path = entry.path();
         let name = entry.file_name().to_string_lossy().into_owned();
-        if path.is_dir() && name != "target" && !name.starts_with('.') {
+        if path.is_dir()
+            && !["node_modules", "target"].contains(&name.as_str())
+            && !name.starts_with('.')
+        {
             pages(&path, out);
         } else if name.ends_with(".md") && !WRITTEN_BY_PROGRAMS.contains(&name.as_str()) {
             out.push(path);
