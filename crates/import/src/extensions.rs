@@ -7,7 +7,7 @@ use crate::findings::{Fault, Findings, NumberKind};
 use crate::mechanism::{Joint, JointKind, Model};
 use crate::sdf::Scope;
 use crate::solids::joint_between;
-use crate::xml::{Element, Value};
+use crate::xml::Element;
 
 /// Unknown elements with these words in their names change the mechanism. Each word has advice.
 const CHANGING: [(&str, &str); 10] = [
@@ -70,8 +70,8 @@ pub(crate) fn loop_joint(
     origin: impl Fn(Element, &mut Findings) -> Option<Isometry3<f64>>,
     findings: &mut Findings,
 ) -> Option<()> {
-    let name = needed(element, "name", findings)?;
-    let word = needed(element, "type", findings)?;
+    let name = findings.needed(element, "name")?;
+    let word = findings.needed(element, "type")?;
     let kind = match word.text.trim() {
         "revolute" | "continuous" => JointKind::Revolute,
         "prismatic" => JointKind::Translational,
@@ -93,12 +93,12 @@ pub(crate) fn loop_joint(
             findings.missing(element, &format!("a `<{key}>`"));
             return None;
         };
-        ends[k] = scope.link(&needed(end, "link", findings)?, findings)?;
+        ends[k] = scope.link(&findings.needed(end, "link")?, findings)?;
         frames[k] = origin(end, findings)?;
     }
     let axis = match element.child("axis") {
         Some(axis) => {
-            let direction = needed(axis, "xyz", findings)?;
+            let direction = findings.needed(axis, "xyz")?;
             findings.direction(&direction)?
         }
         None => Vector3::x(),
@@ -124,7 +124,7 @@ pub(crate) fn ball_constraint(
         if found.is_none() {
             findings.missing(element, &format!("a `<drake:{name}>`"));
         }
-        needed(found?, attribute, findings)
+        findings.needed(found?, attribute)
     };
     let mut ends = [None; 2];
     let mut points = [Vector3::zeros(); 2];
@@ -226,12 +226,4 @@ fn closing(
     joint.places = false;
     model.joints.push(joint);
     Some(())
-}
-
-fn needed<'a>(element: Element<'a>, key: &str, findings: &mut Findings) -> Option<Value<'a>> {
-    let value = element.attribute(key);
-    if value.is_none() {
-        findings.missing(element, &format!("`{key}`"));
-    }
-    value
 }

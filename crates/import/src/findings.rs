@@ -163,6 +163,15 @@ impl Findings {
         self.of(Fault::Missing, element, message);
     }
 
+    /// Returns an attribute that the element must have.
+    pub(crate) fn needed<'a>(&mut self, element: Element<'a>, key: &str) -> Option<Value<'a>> {
+        let value = element.attribute(key);
+        if value.is_none() {
+            self.missing(element, &format!("`{key}`"));
+        }
+        value
+    }
+
     /// Records content that the scene does not contain.
     pub(crate) fn leave(
         &mut self,

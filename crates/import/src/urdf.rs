@@ -15,7 +15,7 @@ use crate::options::Base;
 use crate::pose::quaternion;
 use crate::sdf;
 use crate::solids::{FRICTION, assume_gravity, roll_pitch_yaw, tensor};
-use crate::xml::{Element, Value};
+use crate::xml::Element;
 pub(crate) use names::NAMES;
 
 /// A joint of the file.
@@ -83,14 +83,6 @@ pub(crate) fn read(root: Element, base: Base, findings: &mut Findings) -> Model 
     model
 }
 
-fn attribute<'a>(element: Element<'a>, key: &str, findings: &mut Findings) -> Option<Value<'a>> {
-    let value = element.attribute(key);
-    if value.is_none() {
-        findings.missing(element, &format!("`{key}`"));
-    }
-    value
-}
-
 /// `<origin xyz rpy>` of an element.
 fn origin(
     element: Element,
@@ -141,7 +133,7 @@ fn frame(
 fn links(root: Element, model: &mut Model, findings: &mut Findings) -> HashMap<String, usize> {
     let mut names = HashMap::new();
     for element in root.children().filter(|child| child.name() == "link") {
-        let Some(name) = attribute(element, "name", findings) else {
+        let Some(name) = findings.needed(element, "name") else {
             continue;
         };
         let name = name.text.trim().to_owned();
@@ -172,7 +164,7 @@ fn mass_of(inertial: Element, findings: &mut Findings) -> Option<Mass> {
         findings.missing(inertial, "a `<mass>`");
         return None;
     };
-    let mass = attribute(mass, "value", findings)?;
+    let mass = findings.needed(mass, "value")?;
     let mass = findings.not_negative(&mass, NumberKind::Other)?;
     let Some(inertia) = inertial.child("inertia") else {
         findings.missing(inertial, "an `<inertia>`");
@@ -183,7 +175,7 @@ fn mass_of(inertial: Element, findings: &mut Findings) -> Option<Mass> {
         .iter_mut()
         .zip(["ixx", "iyy", "izz", "ixy", "ixz", "iyz"])
     {
-        let value = attribute(inertia, key, findings)?;
+        let value = findings.needed(inertia, key)?;
         *number = findings.number(&value, NumberKind::Other)?;
     }
     Some(Mass::turned(
@@ -202,7 +194,7 @@ fn edges<'a>(
     let mut edges: Vec<Edge> = Vec::new();
     let mut seen = std::collections::HashSet::new();
     for element in root.children().filter(|child| child.name() == "joint") {
-        let Some(name) = attribute(element, "name", findings) else {
+        let Some(name) = findings.needed(element, "name") else {
             continue;
         };
         let name = name.text.trim().to_owned();
@@ -215,7 +207,7 @@ fn edges<'a>(
                 findings.missing(element, &format!("a `<{key}>`"));
                 return None;
             };
-            let link = attribute(child, "link", findings)?;
+            let link = findings.needed(child, "link")?;
             let found = names.get(link.text.trim()).copied();
             if found.is_none() {
                 let message = format!("joint `{name}`: there is no link `{}`", link.text);
@@ -361,7 +353,7 @@ fn cycle(edges: &[Edge], before: &[Option<usize>]) -> Option<Vec<usize>> {
 fn joint(edge: &Edge, findings: &mut Findings) -> Option<Joint> {
     let Edge { element, name, .. } = edge;
     let element = *element;
-    let word = attribute(element, "type", findings)?;
+    let word = findings.needed(element, "type")?;
     let kind = match word.text.trim() {
         "revolute" | "continuous" => JointKind::Revolute,
         "prismatic" => JointKind::Translational,
@@ -381,7 +373,7 @@ fn joint(edge: &Edge, findings: &mut Findings) -> Option<Joint> {
     );
     let axis = match element.child("axis").filter(|_| has_axis) {
         Some(axis) => {
-            let value = attribute(axis, "xyz", findings)?;
+            let value = findings.needed(axis, "xyz")?;
             findings.direction(&value)?
         }
         None => Vector3::x(),
@@ -423,7 +415,7 @@ fn coupling(
     model: &Model,
     findings: &mut Findings,
 ) -> Option<Coupling> {
-    let name = attribute(mimic, "joint", findings)?;
+    let name = findings.needed(mimic, "joint")?;
     let mut number = |key: &str, default: f64| match mimic.attribute(key) {
         Some(value) => findings.number(&value, NumberKind::Other),
         None => Some(default),
