@@ -69,9 +69,6 @@ pub(crate) fn write(build: Build) -> Result<String, String> {
     packages(&page)?;
     let module = module(&root, &target, build)?;
     let out = Path::new(&target).join("site");
-    run(Command::new("node")
-        .arg(page.join("build.mjs"))
-        .args([&out, &module]))?;
     let book = match Command::new("mdbook").arg("--version").output() {
         Ok(_) => {
             run(Command::new("mdbook")
@@ -83,6 +80,10 @@ pub(crate) fn write(build: Build) -> Result<String, String> {
         }
         Err(_) => "; without the book, because mdBook is not installed",
     };
+    // The page has a link to the book if the book is there.
+    run(Command::new("node")
+        .arg(page.join("build.mjs"))
+        .args([&out, &module]))?;
     Ok(format!("written to {}{book}", out.display()))
 }
 

@@ -1,7 +1,7 @@
 // Writes the static page: node build.mjs OUT WASM
 
 import { createHash } from "node:crypto";
-import { mkdirSync, mkdtempSync, openSync, readdirSync, readFileSync, rmSync, writeFileSync } from "node:fs";
+import { existsSync, mkdirSync, mkdtempSync, openSync, readdirSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { devNull, tmpdir } from "node:os";
 import { dirname, join, resolve } from "node:path";
 import { fileURLToPath } from "node:url";
@@ -106,7 +106,8 @@ const policy = [
   "img-src data: blob:", "worker-src 'self'", "connect-src 'self'", "base-uri 'none'", "form-action 'none'",
 ].join("; ");
 const write = (file, content) => writeFileSync(join(out, file), content);
-write("index.html", readFileSync(join(HERE, "index.html"), "utf8").replace("{{policy}}", policy));
+write("index.html", readFileSync(join(HERE, "index.html"), "utf8").replace("{{policy}}", policy)
+  .replace("{{book}}", existsSync(join(out, "book/index.html")) ? '<a class="full" href="book/index.html">Book</a>' : ""));
 write("style.css", readFileSync(join(HERE, "style.css"), "utf8"));
 write("pfaff.wasm.gz", gzipSync(wasm, { level: 9 }));
 write("examples.json", JSON.stringify(pictured));
