@@ -10,7 +10,8 @@ use crate::solids::joint_between;
 use crate::xml::Element;
 
 /// Unknown elements with these words in their names change the mechanism. Each word has advice.
-const CHANGING: [(&str, &str); 10] = [
+const CHANGING: [(&str, &str); 11] = [
+    ("linear_bushing_rpy", BUSHING),
     (
         "bushing",
         "import a copy without it, and add a force `bushing` to the scene",
@@ -43,6 +44,13 @@ const CHANGING: [(&str, &str); 10] = [
         "import a copy without it, and add a `spring` to the scene",
     ),
 ];
+
+/// The law of Drake differs from the law of a scene, so the element is not converted.
+const BUSHING: &str = "its law differs from a `bushing` of a scene: Drake computes the torques \
+    from roll, pitch and yaw, and the force in axes halfway between both frames; a `bushing` uses \
+    the rotation vector and the axes of the first body, and is unloaded at the start. For frames \
+    that coincide at the start and for small motions, both laws agree to first order: import a \
+    copy without it, and add a force `bushing` to the scene";
 
 const CLOSURE: &str = "describe it as `<loop_joint>`, or with --loops";
 

@@ -97,8 +97,9 @@ fn other_content_that_changes_the_mechanism_is_refused_by_name() {
         (
             "<drake:linear_bushing_rpy/>",
             "linear_bushing_rpy",
-            "bushing",
+            "halfway between both frames; a `bushing` uses the rotation vector",
         ),
+        ("<drake:rubber_bushing/>", "rubber_bushing", "add a force"),
         ("<drake:tendon_constraint/>", "tendon_constraint", "add"),
         ("<loop_closure link='a'/>", "loop_closure", "<loop_joint>"),
         (mimic, "mimic", "<mimic joint"),
