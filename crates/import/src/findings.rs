@@ -266,13 +266,23 @@ impl Findings {
 
     /// A number ≥ 0.
     pub(crate) fn not_negative(&mut self, value: &Value, counted: NumberKind) -> Option<f64> {
-        let number = self.number(value, counted)?;
-        if number < 0.0 {
+        let [number] = self.not_negatives(value, counted)?;
+        Some(number)
+    }
+
+    /// `N` numbers ≥ 0.
+    pub(crate) fn not_negatives<const N: usize>(
+        &mut self,
+        value: &Value,
+        counted: NumberKind,
+    ) -> Option<[f64; N]> {
+        let numbers = self.numbers(value, [N, N], counted)?;
+        if let Some(number) = numbers.iter().find(|x| **x < 0.0) {
             let message = format!("{} is {number}, which may not be negative", value.subject);
             self.at(Fault::Range, value, message);
             return None;
         }
-        Some(number)
+        numbers.try_into().ok()
     }
 
     pub(crate) fn vector(

@@ -175,6 +175,6 @@ pub(crate) const DEEPEST_LIST: usize = 8;
 /// weight is wrong. Test: `a_file_without_gravity_has_that_of_the_earth`.
 pub(crate) const GRAVITY: f64 = -9.81;
 
-/// Default density of geoms in MuJoCo. Unit: kg/m³. Too small or too large: masses are wrong. Test:
-/// `masses_come_from_geoms`.
+/// Default density of geoms in MuJoCo and of collision shapes in SDF. Unit: kg/m³. Too small or too
+/// large: masses are wrong. Test: `masses_come_from_geoms`.
 pub(crate) const DENSITY: f64 = 1000.0;

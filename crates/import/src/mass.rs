@@ -117,7 +117,7 @@ fn steiner(mass: f64, d: Vector3<f64>) -> Matrix3<f64> {
     (Matrix3::identity() * d.dot(&d) - d * d.transpose()) * mass
 }
 
-/// A homogeneous solid with its centre at the origin and its axis along z.
+/// A homogeneous solid with its centre of mass at the origin and its axis along z.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Solid {
     Sphere {
@@ -129,6 +129,12 @@ pub(crate) enum Solid {
         half: f64,
     },
     Cylinder {
+        radius: f64,
+        half: f64,
+    },
+    /// A circular cone with this half height. Its centre of mass is half of this length from its
+    /// base.
+    Cone {
         radius: f64,
         half: f64,
     },
@@ -148,6 +154,7 @@ impl Solid {
             Self::Sphere { radius: r } => 4.0 / 3.0 * PI * r * r * r,
             Self::Capsule { radius: r, half } => PI * r * r * (2.0 * half + 4.0 / 3.0 * r),
             Self::Cylinder { radius: r, half } => PI * r * r * 2.0 * half,
+            Self::Cone { radius: r, half } => PI * r * r * 2.0 * half / 3.0,
             Self::Ellipsoid { half: [a, b, c] } => 4.0 / 3.0 * PI * a * b * c,
             Self::Box { half: [a, b, c] } => 8.0 * a * b * c,
         }
@@ -171,6 +178,10 @@ impl Solid {
             Self::Cylinder { radius: r, half } => {
                 let across = mass * (3.0 * r * r + 4.0 * half * half) / 12.0;
                 [across, across, mass * r * r / 2.0]
+            }
+            Self::Cone { radius: r, half } => {
+                let across = 0.15 * mass * (r * r + half * half);
+                [across, across, 0.3 * mass * r * r]
             }
             Self::Ellipsoid { half: [a, b, c] } => {
                 [b * b + c * c, c * c + a * a, a * a + b * b].map(|sum| mass * sum / 5.0)
@@ -205,6 +216,29 @@ mod tests {
         }
         let [x, _, z] = solid.moments(volume);
         assert!((solid.volume() - volume).abs() < 1e-9);
+        assert!((z - along).abs() < 1e-9 && (x - across).abs() < 1e-9);
+    }
+
+    /// Compares volume, centre and moments of a cone with the sum over 400 000 discs.
+    #[test]
+    fn a_cone_is_the_sum_of_its_discs() {
+        let (radius, half) = (0.3, 0.5);
+        let solid = Solid::Cone { radius, half };
+        let n = 400_000;
+        let step = 2.0 * half / f64::from(n);
+        let (mut volume, mut first, mut along, mut across) = (0.0, 0.0, 0.0, 0.0);
+        for k in 0..n {
+            // The centre of mass is at a quarter of the height.
+            let z = -0.5 * half + (f64::from(k) + 0.5) * step;
+            let r = radius * (1.5 * half - z) / (2.0 * half);
+            let disc = std::f64::consts::PI * r * r * step;
+            volume += disc;
+            first += disc * z;
+            along += disc * r * r / 2.0;
+            across += disc * (r * r / 4.0 + z * z);
+        }
+        let [x, _, z] = solid.moments(volume);
+        assert!((solid.volume() - volume).abs() < 1e-9 && first.abs() < 1e-9);
         assert!((z - along).abs() < 1e-9 && (x - across).abs() < 1e-9);
     }
 

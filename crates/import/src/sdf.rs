@@ -1,6 +1,7 @@
 //! SDF, the format of Gazebo: <http://sdformat.org/spec>.
 
 mod frames;
+mod inertial;
 mod names;
 
 use std::collections::HashMap;
@@ -13,7 +14,7 @@ use crate::findings::{Fault, Findings, NumberKind};
 use crate::limits::APART;
 use crate::mass::Mass;
 use crate::mechanism::{Coupling, Frame, JointKind, Link, Load, Model};
-use crate::solids::{FRICTION, assume_gravity, find_tree, joint_between, tensor, with_second_axis};
+use crate::solids::{FRICTION, assume_gravity, find_tree, joint_between, with_second_axis};
 use crate::xml::{Element, Value};
 use frames::{Frames, pose_of};
 pub(crate) use names::NAMES;
@@ -161,7 +162,7 @@ fn read_model(element: Element, version: (u32, u32), model: &mut Model, findings
         .zip(&names)
     {
         let pose = frames.pose(name).unwrap_or_default();
-        let (mass, held_weight) = link(child, name, findings).unwrap_or_default();
+        let (mass, held_weight) = link(child, name, &frames, findings).unwrap_or_default();
         model.links.push(Link {
             name: name.clone(),
             pose,
@@ -202,11 +203,15 @@ fn read_model(element: Element, version: (u32, u32), model: &mut Model, findings
 }
 
 /// Returns the mass of a link, and the compensated share of the weight.
-fn link(element: Element, name: &str, findings: &mut Findings) -> Option<(Mass, f64)> {
-    let (mut mass, mut held) = (None, 0.0);
+fn link(
+    element: Element,
+    name: &str,
+    frames: &Frames,
+    findings: &mut Findings,
+) -> Option<(Mass, f64)> {
+    let mut held = 0.0;
     for child in element.children() {
         match child.name() {
-            "inertial" => mass = Some(inertial(child, name, findings)?),
             "collision" => findings.leave_element("contacts of links", child, name),
             "gravity" => {
                 let falls = findings.boolean(&child.text()).unwrap_or(true);
@@ -215,69 +220,7 @@ fn link(element: Element, name: &str, findings: &mut Findings) -> Option<(Mass, 
             _ => {}
         }
     }
-    let mass = mass.unwrap_or_else(|| {
-        findings.remarks.push(format!(
-            "Link `{name}` has no inertia: 1 kg and 1 kg·m² are assumed, as SDF requires."
-        ));
-        let inertia = tensor([1.0, 1.0, 1.0, 0.0, 0.0, 0.0]);
-        Mass {
-            mass: 1.0,
-            centre: Vector3::zeros(),
-            inertia,
-        }
-    });
-    Some((mass, held))
-}
-
-fn inertial(element: Element, link: &str, findings: &mut Findings) -> Option<Mass> {
-    if element
-        .attribute("auto")
-        .is_some_and(|value| value.text.trim() == "true")
-    {
-        unsupported(
-            element,
-            "`auto` inertia is not supported: give the numbers",
-            findings,
-        );
-        return None;
-    }
-    let pose = match element.child("pose") {
-        Some(pose) => pose_of(pose, NumberKind::Other, findings)?,
-        None => Isometry3::identity(),
-    };
-    let mass = match element.text_of("mass") {
-        Some(value) => findings.not_negative(&value, NumberKind::Other)?,
-        None => {
-            findings.remarks.push(format!(
-                "Link `{link}` has no mass: 1 kg is assumed, as SDF requires."
-            ));
-            1.0
-        }
-    };
-    let mut numbers = [1.0, 1.0, 1.0, 0.0, 0.0, 0.0];
-    match element.child("inertia") {
-        Some(inertia) => {
-            for (number, key) in numbers
-                .iter_mut()
-                .zip(["ixx", "iyy", "izz", "ixy", "ixz", "iyz"])
-            {
-                if let Some(value) = inertia.text_of(key) {
-                    *number = findings.number(&value, NumberKind::Other)?;
-                }
-            }
-        }
-        None => {
-            findings.remarks.push(format!(
-                "Link `{link}` has no moments: 1 kg·m² is assumed, as SDF requires."
-            ));
-        }
-    }
-    Some(Mass::turned(
-        mass,
-        pose.translation.vector,
-        pose.rotation,
-        tensor(numbers),
-    ))
+    Some((inertial::mass_of(element, name, frames, findings)?, held))
 }
 
 /// An axis with its loads.

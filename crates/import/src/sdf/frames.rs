@@ -8,7 +8,7 @@ use crate::findings::{Fault, Findings, NumberKind};
 use crate::mechanism::Link;
 use crate::pose::quaternion;
 use crate::solids::roll_pitch_yaw;
-use crate::xml::Element;
+use crate::xml::{Element, Value};
 
 /// A named pose in a file.
 struct Place {
@@ -64,13 +64,9 @@ impl Frames {
                 continue;
             };
             let pose = child.child("pose");
-            let relative = pose.and_then(|pose| {
-                let key = pose
-                    .attribute("relative_to")
-                    .or_else(|| pose.attribute("frame"));
-                key.map(|value| value.text.trim().to_owned())
-                    .filter(|name| !name.is_empty())
-            });
+            let relative = pose
+                .and_then(base_of)
+                .map(|value| value.text.trim().to_owned());
             let base = relative.or_else(|| match &what {
                 What::Link(_) => None,
                 What::Joint => child.text_of("child").map(|value| value.text.to_owned()),
@@ -157,6 +153,25 @@ impl Frames {
         found.or_else(|| self.poses.get(&of_joint(name))).copied()
     }
 
+    /// A pose in the axes of a link, from an element within the link.
+    pub(super) fn pose_in_link(
+        &self,
+        element: Element,
+        link: &str,
+        findings: &mut Findings,
+    ) -> Option<Isometry3<f64>> {
+        let own = pose_of(element, NumberKind::Other, findings)?;
+        let Some(base) = base_of(element) else {
+            return Some(own);
+        };
+        let Some(pose) = self.pose(base.text.trim()) else {
+            let message = format!("{}: there is no frame `{}`", base.subject, base.text);
+            findings.at(Fault::Unknown, &base, message);
+            return None;
+        };
+        Some(self.pose(link)?.inverse() * pose * own)
+    }
+
     /// The pose of the frame of a joint.
     pub(super) fn pose_of_joint(&self, name: &str) -> Option<Isometry3<f64>> {
         self.poses.get(&of_joint(name)).copied()
@@ -195,6 +210,13 @@ impl Frames {
         out.sort_by(|a, b| a.0.cmp(&b.0));
         out
     }
+}
+
+/// The name of the frame to which a pose is relative.
+fn base_of(pose: Element) -> Option<Value> {
+    let name = pose.attribute("relative_to");
+    let name = name.or_else(|| pose.attribute("frame"));
+    name.filter(|value| !value.text.trim().is_empty())
 }
 
 /// Reads a pose of six numbers (position, and angles about fixed axes), or of seven numbers

@@ -48,8 +48,8 @@ const ENTRIES: &[Entry] = &[
             ),
             ("frames within links", "<frame>"),
         ]),
-    Entry::new("inertial", "auto <pose> <mass> <inertia>")
-        .idle("<density> <auto_inertia_params>")
+    Entry::new("inertial", "auto <pose> <mass> <inertia> <density>")
+        .idle("<auto_inertia_params>")
         .left(&[
             (
                 "masses of a fluid around a link: accelerations differ",
@@ -57,6 +57,20 @@ const ENTRIES: &[Entry] = &[
             ),
             ("frames within links", "<frame>"),
         ]),
+    Entry::new("collision", "name <pose> <geometry> <density>")
+        .idle("<auto_inertia_params> <laser_retro> <max_contacts> <surface>")
+        .left(&[("frames within links", "<frame>")]),
+    Entry::new(
+        "geometry",
+        "<empty> <box> <capsule> <cone> <cylinder> <ellipsoid> <sphere>",
+    )
+    .idle("<heightmap> <image> <mesh> <plane> <polyline>"),
+    Entry::new("box", "<size>"),
+    Entry::new("capsule", "<radius> <length>"),
+    Entry::new("cone", "<radius> <length>"),
+    Entry::new("cylinder", "<radius> <length>"),
+    Entry::new("ellipsoid", "<radii>"),
+    Entry::new("sphere", "<radius>"),
     Entry::new("inertia", "<ixx> <iyy> <izz> <ixy> <ixz> <iyz>"),
     Entry::new("pose", "relative_to frame degrees rotation_format"),
     Entry::new("frame", "name attached_to <pose>"),

@@ -7,6 +7,7 @@ mod mistakes;
 mod mjcf;
 mod poses;
 mod sdf;
+mod shapes;
 mod urdf;
 
 use model::Registry;
