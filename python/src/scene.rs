@@ -401,7 +401,7 @@ impl Scene {
     /// Converts a robot model to a scene. Returns the scene, its remarks, and the omitted elements
     /// as pairs of kind and subject.
     #[staticmethod]
-    #[pyo3(signature = (format, path, text, base, fixed, snap, keyframe, pose, loops))]
+    #[pyo3(signature = (format, path, text, base, fixed, snap, keyframe, model, pose, loops))]
     #[allow(clippy::too_many_arguments)]
     fn imported(
         py: Python<'_>,
@@ -412,6 +412,7 @@ impl Scene {
         fixed: bool,
         snap: bool,
         keyframe: Option<String>,
+        model: Option<String>,
         pose: Vec<(String, f64)>,
         loops: Option<PathBuf>,
     ) -> PyResult<(Self, Vec<String>, Vec<Omission>)> {
@@ -440,6 +441,7 @@ impl Scene {
                 loops: loops.as_deref().map(source::of_file).transpose()?,
                 pose,
                 keyframe,
+                model,
             };
             let imported = pfaff::import::import(&name, &text, &options);
             let imported = imported.map_err(|refusal| Refusal::from(*refusal))?;

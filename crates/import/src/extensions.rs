@@ -192,21 +192,13 @@ fn detachable(
         found
     };
     let other = part("child_model", findings)?;
-    if ![model.name.as_str(), "__model__"].contains(&other.text.trim()) {
-        let message = format!(
-            "a detachable joint holds the model `{}`, which is not in this file",
-            other.text.trim()
-        );
-        findings.at(Fault::Unsupported, &other, message);
-        return None;
-    }
     let ends = ["parent_link", "child_link"].map(|key| part(key, findings));
     let [Some(parent), Some(child)] = ends else {
         return None;
     };
     let links = [
         scope.link(&parent, findings)?,
-        scope.link(&child, findings)?,
+        scope.link_of_model(&other, &child, findings)?,
     ];
     let name = format!("{} holds {}", parent.text.trim(), child.text.trim());
     let here = Isometry3::identity();

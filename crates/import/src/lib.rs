@@ -141,14 +141,14 @@ pub fn import(name: &str, text: &str, options: &Options) -> Result<ImportedScene
     let texts = files::load(source, &options.folder, &mut findings);
     let refused = |findings: &mut Findings| {
         let refusal = findings.refusal();
-        let all: Vec<SourceText> = texts.iter().chain(&loops).cloned().collect();
+        let all: Vec<SourceText> = texts.all.iter().chain(&loops).cloned().collect();
         refusal.map(|(found, more)| Box::new(Refusal::of(found, more, &all)))
     };
     let mut documents = Vec::new();
-    for text in &texts {
+    for text in &texts.all {
         match xml::parse(text) {
             Ok(document) => documents.push(document),
-            Err(problem) => return Err(Box::new(Refusal::of(vec![*problem], 0, &texts))),
+            Err(problem) => return Err(Box::new(Refusal::of(vec![*problem], 0, &texts.all))),
         }
     }
     // A file whose included files have problems is rejected here, because files that include each
@@ -241,12 +241,17 @@ fn read<'a>(
     match format {
         "MJCF" => vocabulary::check(root, mjcf::NAMES, Some(files), findings),
         "URDF" => vocabulary::check(root, urdf::NAMES, None, findings),
+        // The reader of SDF also checks the names of included files.
         _ => vocabulary::check(root, sdf::NAMES, None, findings),
     }
     if options.base == Base::Free && format != "URDF" {
         let message = format!(
             "the option for a free base is only for URDF: a {format} file states which bodies are fixed to the ground"
         );
+        findings.of(Fault::Unsupported, root, message);
+    }
+    if options.model.is_some() && format != "SDF" {
+        let message = format!("a model is chosen only in SDF: a {format} file has one model");
         findings.of(Fault::Unsupported, root, message);
     }
     // A file with misspelt names is rejected here. The readers would report the intended names as
@@ -257,7 +262,7 @@ fn read<'a>(
     let mut model = match format {
         "MJCF" => mjcf::read(files, options.keyframe.as_deref(), findings),
         "URDF" => urdf::read(root, options.base, findings),
-        _ => sdf::read(root, findings),
+        _ => sdf::read(files, options.model.as_deref(), findings),
     };
     let told = angles::remarks(&findings.degrees, &findings.radians);
     findings.remarks.extend(told);

@@ -16,6 +16,11 @@ pub(crate) const MOST_NODES: u32 = 1 << 19;
 /// rejected. Too large: recursive readers overflow the stack. Test: `hostile_files_are_refused`.
 pub(crate) const DEEPEST: usize = 300;
 
+/// Maximum nesting depth of models in SDF, including the models of included files. Unit: number.
+/// Too small: a robot of nested modules is rejected. Too large: recursive readers overflow the
+/// stack. Test: `models_are_nested`.
+pub(crate) const DEEPEST_MODEL: usize = 32;
+
 /// Maximum number of attributes of an element. Unit: number. Too small: elements with many
 /// attributes of extensions are rejected; the formats define at most 60. Too large: the time grows
 /// with the square of the number. Test: `many_attributes_cost_no_time`.

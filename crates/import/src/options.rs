@@ -22,6 +22,8 @@ pub struct Options {
     /// The keyframe at which the scene starts. Without a keyframe, the scene starts at the
     /// described pose.
     pub keyframe: Option<String>,
+    /// The only model of an SDF file that is read. Without a name, all models are read.
+    pub model: Option<String>,
 }
 
 impl Default for Options {
@@ -34,6 +36,7 @@ impl Default for Options {
             pose: Vec::new(),
             axes: Axes::Told,
             keyframe: None,
+            model: None,
         }
     }
 }

@@ -3,203 +3,185 @@
 mod frames;
 mod inertial;
 mod names;
+mod parts;
+mod scope;
 
-use std::collections::HashMap;
+use std::collections::HashSet;
 
 use model::words::quantity;
 use nalgebra::{Isometry3, Vector3};
 
 use crate::extensions;
+use crate::files::{Files, version_of};
 use crate::findings::{Fault, Findings, NumberKind};
 use crate::limits::APART;
 use crate::mass::Mass;
 use crate::mechanism::{Coupling, Frame, JointKind, Link, Load, Model};
 use crate::solids::{FRICTION, assume_gravity, find_tree, joint_between, with_second_axis};
 use crate::xml::{Element, Value};
-use frames::{Frames, pose_of};
+pub(crate) use frames::Frames;
+use frames::{base_of, pose_of};
 pub(crate) use names::NAMES;
+use parts::{Item, Part};
+use scope::SceneNames;
+pub(crate) use scope::Scope;
 
-/// Names of links for joints, and the convention of the file for axes.
-pub(crate) struct Scope<'n> {
-    links: HashMap<&'n str, Option<usize>>,
-    frames: Frames,
-    /// Whether joint axes are given in the axes of the model, as in versions before 1.5.
-    in_model: bool,
-}
-
-impl<'n> Scope<'n> {
-    /// The scope for joints in the element `<gazebo>` of a URDF.
-    pub(crate) fn of_links(names: &'n HashMap<String, usize>) -> Self {
-        let links = names
-            .iter()
-            .map(|(name, link)| (name.as_str(), Some(*link)));
-        Self {
-            links: links.collect(),
-            frames: Frames::default(),
-            in_model: false,
-        }
-    }
-
-    pub(crate) fn link(&self, value: &Value, findings: &mut Findings) -> Option<Option<usize>> {
-        let name = value.text.trim();
-        if name == "world" {
-            return Some(None);
-        }
-        if let Some(link) = self.links.get(name) {
-            return Some(*link);
-        }
-        if let Some(link) = self.frames.link_of(name) {
-            return Some(Some(link));
-        }
-        let near = scene::nearest(name, self.links.keys().copied());
-        let help = near.map(|near| format!("did you mean `{near}`?"));
-        let message = format!("{}: there is no link `{name}`", value.subject);
-        let (source, span) = (value.source, value.span.clone());
-        findings.fault_with_help(Fault::Unknown, source, span, message, "no such link", help);
-        None
-    }
-}
-
-/// Reads the model of a file.
-pub(crate) fn read(root: Element, findings: &mut Findings) -> Model {
+/// Reads the models of a file. `chosen` is the name of the only model that is read.
+pub(crate) fn read<'a>(
+    files: &'a Files<'a>,
+    chosen: Option<&str>,
+    findings: &mut Findings,
+) -> Model {
     let mut model = Model::default();
-    let world = root.child("world");
-    let around = world.unwrap_or(root);
-    let models: Vec<Element> = around
-        .children()
-        .filter(|child| child.name() == "model")
-        .collect();
-    let &[element] = models.as_slice() else {
-        let message = format!("one `<model>` is read, found {}", models.len());
-        findings.of(Fault::Structure, root, message);
+    let world = parts::world(files, chosen, findings);
+    // If models cannot be read, names are missing. They are not reported as separate faults.
+    let Some(world) = world.filter(|_| !findings.has_problems()) else {
         return model;
     };
-    let gravity = world.and_then(|world| world.text_of("gravity"));
+    model.name = name_of(&world);
+    let gravity = world.element.text_of("gravity");
     match gravity.map(|value| findings.vector(&value, NumberKind::Other)) {
         Some(Some(gravity)) => model.gravity = gravity,
         Some(None) => return model,
         None => assume_gravity(&mut model, findings),
     }
-    for child in around.children() {
-        match child.name() {
-            "include" => unsupported(
-                child,
-                "`<include>` is not supported: put the model into the file",
-                findings,
-            ),
-            "joint" => unsupported(
-                child,
-                "joints outside of a model are not supported",
-                findings,
-            ),
-            _ => {}
-        }
-    }
-    let version = root.attribute("version");
-    let version = version.map_or((1, 6), |value| numbers_of(value.text));
-    read_model(element, version, &mut model, findings);
+    let frames = Frames::of_world(&world, findings);
+    let names = SceneNames::of(&world);
+    let reader = Reader {
+        world: &frames,
+        names: &names,
+    };
+    reader.links(&world, &frames, false, &mut model, findings);
+    reader.joints(&world, &frames, &mut model, findings);
+    reader.mimics(&world, &frames, &mut model, findings);
+    find_tree(&mut model);
     model
 }
 
-fn numbers_of(version: &str) -> (u32, u32) {
-    let mut parts = version
-        .trim()
-        .split('.')
-        .map(|part| part.parse().unwrap_or(0));
-    (parts.next().unwrap_or(1), parts.next().unwrap_or(6))
+/// The name of the only model, or of the world.
+fn name_of(world: &Part) -> String {
+    let name = match world.parts.as_slice() {
+        [only] => only.name.as_str(),
+        _ => world
+            .element
+            .attribute("name")
+            .map_or("", |name| name.text.trim()),
+    };
+    if name.is_empty() {
+        "SDF model".to_owned()
+    } else {
+        name.to_owned()
+    }
+}
+
+/// Reads the elements of all models.
+struct Reader<'r> {
+    world: &'r Frames,
+    names: &'r SceneNames,
+}
+
+impl<'r> Reader<'r> {
+    /// Reads the links of a model and of the models within it, in the order of their numbers.
+    fn links(
+        &self,
+        part: &Part,
+        frames: &Frames,
+        around_is_static: bool,
+        model: &mut Model,
+        findings: &mut Findings,
+    ) {
+        let is_static = part.is_static || around_is_static;
+        for item in part.items_of("link") {
+            let name = self.names.place(&part.path, item.name);
+            let pose = frames.pose(item.name).unwrap_or_default();
+            let (mass, held_weight) =
+                link(item.element, item.name, frames, findings).unwrap_or_default();
+            let number = model.links.len();
+            model.links.push(Link {
+                name: name.clone(),
+                pose,
+                mass,
+                held_weight,
+            });
+            if is_static {
+                let (links, here) = ([None, Some(number)], Isometry3::identity());
+                let name = format!("static {name}");
+                let fixed =
+                    joint_between(model, &name, JointKind::Fixed, links, here, Vector3::z());
+                model.joints.push(fixed);
+            }
+        }
+        for (inner, frames) in inner(part, frames) {
+            self.links(inner, frames, is_static, model, findings);
+        }
+    }
+
+    /// Reads the joints, frames and plugins of a model and of the models within it.
+    fn joints(&self, part: &Part, frames: &Frames, model: &mut Model, findings: &mut Findings) {
+        for (name, link, pose) in frames.places(&model.links) {
+            let name = self.names.place(&part.path, &name);
+            model.frames.push(Frame { name, link, pose });
+        }
+        let mut seen = HashSet::new();
+        for item in part.items_of("joint") {
+            if !seen.insert(item.name) {
+                let message = format!("the joint `{}` is defined twice", item.name);
+                findings.of(Fault::Twice, item.element, message);
+            }
+            joint(
+                item.element,
+                &self.scope(part, item, frames),
+                model,
+                findings,
+            );
+        }
+        for item in part.items_of("plugin") {
+            let scope = self.scope(part, item, frames);
+            extensions::plugin(item.element, &scope, model, "plugins", findings);
+        }
+        for (inner, frames) in inner(part, frames) {
+            self.joints(inner, frames, model, findings);
+        }
+    }
+
+    fn mimics(&self, part: &Part, frames: &Frames, model: &mut Model, findings: &mut Findings) {
+        for item in part.items_of("joint") {
+            mimic(
+                item.element,
+                &self.scope(part, item, frames),
+                model,
+                findings,
+            );
+        }
+        for (inner, frames) in inner(part, frames) {
+            self.mimics(inner, frames, model, findings);
+        }
+    }
+
+    fn scope<'s>(&'s self, part: &'s Part, item: &Item, frames: &'s Frames) -> Scope<'s> {
+        let version = item.element.file_root().attribute("version");
+        let in_model = version.is_some_and(|value| version_of(value.text) < (1, 5));
+        Scope::of_part(
+            part,
+            item.within,
+            [self.world, frames],
+            self.names,
+            in_model,
+        )
+    }
+}
+
+/// The models within a model, with their names.
+fn inner<'p, 'a>(
+    part: &'p Part<'a>,
+    frames: &'p Frames,
+) -> impl Iterator<Item = (&'p Part<'a>, &'p Frames)> {
+    let parts = part.parts.iter();
+    parts.filter_map(|inner| Some((inner, frames.inner(&inner.name)?)))
 }
 
 fn unsupported(element: Element, message: &str, findings: &mut Findings) {
     findings.of(Fault::Unsupported, element, message);
-}
-
-fn read_model(element: Element, version: (u32, u32), model: &mut Model, findings: &mut Findings) {
-    let name = element
-        .attribute("name")
-        .map(|name| name.text.trim().to_owned());
-    model.name = name
-        .filter(|name| !name.is_empty())
-        .unwrap_or_else(|| "SDF model".into());
-    let mut names: Vec<String> = Vec::new();
-    let mut is_static = false;
-    for child in element.children() {
-        match child.name() {
-            "link" => {
-                let name = child
-                    .attribute("name")
-                    .map(|name| name.text.trim().to_owned());
-                let Some(name) = name else {
-                    findings.missing(child, "a `name`");
-                    continue;
-                };
-                if names.contains(&name) && names.len() < 5000 {
-                    let message = format!("the link `{name}` is defined twice");
-                    findings.of(Fault::Twice, child, message);
-                }
-                names.push(name);
-            }
-            "static" => is_static = findings.boolean(&child.text()).unwrap_or(false),
-            "model" => unsupported(child, "models within models are not supported", findings),
-            "include" => unsupported(
-                child,
-                "`<include>` is not supported: put the model into the file",
-                findings,
-            ),
-            _ => {}
-        }
-    }
-    if is_static {
-        return findings.of(
-            Fault::Structure,
-            element,
-            "the model is static, so no body moves",
-        );
-    }
-    let frames = Frames::read(element, &names, findings);
-    for (child, name) in element
-        .children()
-        .filter(|child| child.name() == "link")
-        .zip(&names)
-    {
-        let pose = frames.pose(name).unwrap_or_default();
-        let (mass, held_weight) = link(child, name, &frames, findings).unwrap_or_default();
-        model.links.push(Link {
-            name: name.clone(),
-            pose,
-            mass,
-            held_weight,
-        });
-    }
-    let mut scope = Scope {
-        links: names
-            .iter()
-            .enumerate()
-            .map(|(k, name)| (name.as_str(), Some(k)))
-            .collect(),
-        frames,
-        in_model: version < (1, 5),
-    };
-    for (name, link, pose) in scope.frames.places(&model.links) {
-        model.frames.push(Frame { name, link, pose });
-    }
-    let mut seen = std::collections::HashSet::new();
-    for child in element.children().filter(|child| child.name() == "joint") {
-        if let Some(name) = child.attribute("name")
-            && !seen.insert(name.text)
-        {
-            let message = format!("the joint `{}` is defined twice", name.text);
-            findings.of(Fault::Twice, child, message);
-        }
-        joint(child, &scope, model, findings);
-    }
-    for child in element.children().filter(|child| child.name() == "plugin") {
-        extensions::plugin(child, &scope, model, "plugins", findings);
-    }
-    scope.links.clear();
-    for child in element.children().filter(|child| child.name() == "joint") {
-        mimic(child, model, findings);
-    }
-    find_tree(model);
 }
 
 /// Returns the mass of a link, and the compensated share of the weight.
@@ -252,7 +234,9 @@ fn read_joint(
         return None;
     };
     let links = links_of(element, name, scope, findings)?;
-    let in_second = match scope.frames.pose_of_joint(name) {
+    // A pose relative to the ground is read from its own numbers.
+    let is_of_ground = links[1].is_none() && element.child("pose").and_then(base_of).is_none();
+    let in_second = match scope.frames.pose_of_joint(name).filter(|_| !is_of_ground) {
         Some(pose) => model.pose(links[1]).inverse() * pose,
         None => match element.child("pose") {
             Some(pose) => pose_of(pose, NumberKind::Length, findings)?,
@@ -281,7 +265,14 @@ fn read_joint(
         None => z,
     };
     let found = kind_of(element, name, &kind, findings)?;
-    let mut joint = joint_between(model, name, found, links, in_second, first.direction);
+    let mut joint = joint_between(
+        model,
+        &scope.joint(name),
+        found,
+        links,
+        in_second,
+        first.direction,
+    );
     if found.measures().is_empty() {
         if first.load != Load::default() {
             findings.leave_element(
@@ -319,11 +310,8 @@ fn look_at_parent(
     };
     let parent = parent.text();
     let frame = parent.text.trim();
-    let Some(pose) = scope
-        .frames
-        .pose(frame)
-        .filter(|_| !scope.links.contains_key(frame))
-    else {
+    let pose = scope.pose(frame);
+    let Some(pose) = pose.filter(|_| scope.frames.is_frame(frame)) else {
         return;
     };
     let apart = (pose.translation.vector - joint.translation.vector).norm();
@@ -431,14 +419,14 @@ fn read_axis(
     let second = model.pose(links[1]).rotation;
     let direction = match expressed.filter(|value| !value.text.is_empty()) {
         Some(value) => {
-            let Some(pose) = scope.frames.pose(value.text.trim()) else {
+            let Some(pose) = scope.pose(value.text.trim()) else {
                 let message = format!("{}: there is no frame `{}`", value.subject, value.text);
                 findings.at(Fault::Unknown, &value, message);
                 return None;
             };
             second.inverse() * (pose.rotation * given)
         }
-        None if of_model => second.inverse() * (scope.frames.model().rotation * given),
+        None if of_model => second.inverse() * (scope.model().rotation * given),
         None => in_second.rotation * given,
     };
     let mut load = Load::default();
@@ -475,7 +463,7 @@ fn read_axis(
 }
 
 /// `<mimic>` of an axis: y = multiplier·(x − reference) + offset.
-fn mimic(element: Element, model: &mut Model, findings: &mut Findings) {
+fn mimic(element: Element, scope: &Scope, model: &mut Model, findings: &mut Findings) {
     let Some(name) = element.attribute("name") else {
         return;
     };
@@ -488,10 +476,8 @@ fn mimic(element: Element, model: &mut Model, findings: &mut Findings) {
             continue;
         };
         let find = |name: &str| {
-            model
-                .joints
-                .iter()
-                .position(|joint| joint.name == name.trim())
+            let name = scope.joint(name.trim());
+            model.joints.iter().position(|joint| joint.name == name)
         };
         let led = usize::from(
             mimic
@@ -518,7 +504,7 @@ fn mimic(element: Element, model: &mut Model, findings: &mut Findings) {
         let (multiplier, offset) = (number("multiplier", 1.0), number("offset", 0.0));
         let reference = number("reference", 0.0);
         model.couplings.push(Coupling {
-            name: format!("{} follows {}", name.text.trim(), other.text.trim()),
+            name: format!("{} follows {}", model.joints[y].name, model.joints[x].name),
             x: Some((x, led)),
             y: (y, coordinate),
             coefficients: vec![offset - multiplier * reference, multiplier],

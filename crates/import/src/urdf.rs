@@ -56,11 +56,13 @@ pub(crate) fn read(root: Element, base: Base, findings: &mut Findings) -> Model 
             model.couplings.extend(coupling);
         }
     }
+    let frames = sdf::Frames::of_links(&names);
+    let own = model.name.clone();
+    let scope = sdf::Scope::of_links(&frames, &own);
     for child in root.children() {
         match child.name() {
-            "gazebo" => gazebo(child, &names, &mut model, findings),
+            "gazebo" => gazebo(child, &scope, &mut model, findings),
             "loop_joint" => {
-                let scope = sdf::Scope::of_links(&names);
                 let kinds = [NumberKind::Length, NumberKind::Direction];
                 let frame = |end: Element, findings: &mut Findings| frame(end, kinds, findings);
                 // Missing or wrong content has already been reported.
@@ -75,7 +77,6 @@ pub(crate) fn read(root: Element, base: Base, findings: &mut Findings) -> Model 
     }
     for child in root.foreign_children() {
         if (child.prefix(), child.name()) == (Some("drake"), "ball_constraint") {
-            let scope = sdf::Scope::of_links(&names);
             let _ = extensions::ball_constraint(child, &scope, &mut model, findings);
         }
     }
@@ -456,24 +457,17 @@ fn coupling(
 const GAZEBO: &str = "settings and plugins of Gazebo";
 
 /// Joints that close loops, written as in SDF; settings of a simulator are omitted.
-fn gazebo(
-    element: Element,
-    names: &HashMap<String, usize>,
-    model: &mut Model,
-    findings: &mut Findings,
-) {
+fn gazebo(element: Element, scope: &sdf::Scope, model: &mut Model, findings: &mut Findings) {
     for child in element.children() {
         if child.name() == "joint" {
             crate::vocabulary::check(child, sdf::NAMES, None, findings);
             let first = model.joints.len();
-            let scope = sdf::Scope::of_links(names);
-            sdf::joint(child, &scope, model, findings);
+            sdf::joint(child, scope, model, findings);
             for joint in &mut model.joints[first..] {
                 joint.places = false;
             }
         } else if child.name() == "plugin" {
-            let scope = sdf::Scope::of_links(names);
-            extensions::plugin(child, &scope, model, GAZEBO, findings);
+            extensions::plugin(child, scope, model, GAZEBO, findings);
         } else {
             let subject = match element.attribute("reference") {
                 Some(link) => format!("<{}> of `{}`", child.name(), link.text),

@@ -40,6 +40,12 @@ impl<'a> Element<'a> {
         Self { node, source }
     }
 
+    /// The root of the file of the element.
+    pub(crate) fn file_root(&self) -> Self {
+        let (node, source) = (self.node.document().root_element(), self.source);
+        Self { node, source }
+    }
+
     pub(crate) fn name(&self) -> &'a str {
         self.node.tag_name().name()
     }

@@ -121,6 +121,9 @@ pub(crate) struct Import {
     /// Start at a keyframe of the file
     #[arg(long, value_name = "NAME")]
     pub(crate) keyframe: Option<String>,
+    /// Read only one model of an SDF file
+    #[arg(long, value_name = "NAME")]
+    pub(crate) model: Option<String>,
     #[command(flatten)]
     pub(crate) memory: Memory,
     /// Print omissions and written files as a JSON document

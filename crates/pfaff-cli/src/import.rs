@@ -79,6 +79,7 @@ fn options(arguments: &Import) -> Result<Options, Failure> {
             Axes::Told
         },
         keyframe: arguments.keyframe.clone(),
+        model: arguments.model.clone(),
     })
 }
 

@@ -108,6 +108,7 @@ class Scene(Questions):
         keep_fixed: bool = False,
         snap: bool = False,
         keyframe: str | None = None,
+        model: str | None = None,
         pose: Mapping[str, float] | None = None,
         loops: str | os.PathLike[str] | None = None,
     ) -> tuple[Scene, list[str], list[tuple[str, str, int]]]:
@@ -115,9 +116,9 @@ class Scene(Questions):
 
         Each omitted element has kind, subject and line. ``format`` is ``"MJCF"``, ``"URDF"`` or
         ``"SDF"``. The other arguments are the options of ``pfaff import``: ``base`` (``"fixed"`` or
-        ``"free"``), ``keep_fixed``, ``snap``, ``keyframe``, ``pose`` (values of joints near which
-        loops are closed) and ``loops`` (a file of loop closures of a URDF). If ``text`` replaces a
-        file, no other file is included.
+        ``"free"``), ``keep_fixed``, ``snap``, ``keyframe``, ``model`` (the only model of an SDF
+        file that is read), ``pose`` (values of joints near which loops are closed) and ``loops`` (a
+        file of loop closures of a URDF). If ``text`` replaces a file, no other file is included.
         """
         if path is None and text is None:
             raise wrong("need a path or a text")
@@ -131,6 +132,7 @@ class Scene(Questions):
             arguments.flag("keep_fixed", keep_fixed),
             arguments.flag("snap", snap),
             arguments.maybe(arguments.text, "keyframe", keyframe),
+            arguments.maybe(arguments.text, "model", model),
             list(joints.items()),
             arguments.maybe(arguments.path, "loops", loops),
         )

@@ -14,26 +14,30 @@ const ENTRIES: &[Entry] = &[
     Entry::new("sdf", "version <world> <model> <include>")
         .idle("<light>")
         .left(&[("settings of the world", "<actor>")]),
-    Entry::new("world", "name <model> <gravity> <include> <joint>")
+    Entry::new("world", "name <model> <gravity> <include> <joint> <frame>")
         .idle("<light> <scene> <gui>")
         .left(&[(
             "settings of the world",
             "<physics> <magnetic_field> <atmosphere> <audio> <wind> <plugin> <road> \
-             <spherical_coordinates> <state> <population> <actor> <frame>",
+             <spherical_coordinates> <state> <population> <actor>",
         )]),
     Entry::new(
         "model",
-        "name <link> <joint> <pose> <frame> <static> <model> <include> <plugin>",
+        "name canonical_link placement_frame <link> <joint> <pose> <frame> <static> <model> \
+         <include> <plugin>",
     )
-    .idle("canonical_link namespace")
+    .idle("namespace")
     .left(&[
-        ("frames that place the model", "placement_frame"),
         (
             SIMULATOR,
             "<self_collide> <allow_auto_disable> <enable_wind>",
         ),
         ("grippers", "<gripper>"),
     ]),
+    Entry::new(
+        "include",
+        "merge <uri> <name> <pose> <placement_frame> <static> <plugin>",
+    ),
     Entry::new("link", "name <pose> <inertial> <collision> <gravity>")
         .idle("<visual> <light> <must_be_base_link>")
         .left(&[

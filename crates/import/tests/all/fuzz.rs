@@ -9,7 +9,7 @@ use super::{path_of, text_of};
 /// Number of changed files in an ordinary run.
 const FEW: u64 = 600;
 
-const FILES: [&str; 22] = [
+const FILES: [&str; 23] = [
     "mjcf/pendulum.xml",
     "mjcf/free-and-ball.xml",
     "mjcf/many-joints.xml",
@@ -32,13 +32,14 @@ const FILES: [&str; 22] = [
     "sdf/old.sdf",
     "sdf/follows.sdf",
     "sdf/bare.sdf",
+    "sdf/models.sdf",
 ];
 
 /// Loop closures of one of the files.
 const LOOPS: &str = "urdf/triangle.yaml";
 
 /// Fragments of text that are inserted at random positions.
-const PIECES: [&str; 34] = [
+const PIECES: [&str; 38] = [
     "<",
     ">",
     "/>",
@@ -63,6 +64,10 @@ const PIECES: [&str; 34] = [
     "<geom size=\"1\"/>",
     "<frame/>",
     "<include file=\"parts/arm.xml\"/>",
+    "<include><uri>bare.sdf</uri></include>",
+    "<include merge=\"true\"><uri>follows.sdf</uri><placement_frame>a</placement_frame></include>",
+    "<model name=\"door\">",
+    "</model>",
     " name=\"hinge\"",
     " class=\"leg\"",
     " pos=\"0 0 0\"",

@@ -5,6 +5,7 @@ mod fuzz;
 mod hostile;
 mod mistakes;
 mod mjcf;
+mod models;
 mod poses;
 mod sdf;
 mod shapes;

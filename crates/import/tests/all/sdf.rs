@@ -5,7 +5,7 @@ use pfaff_import::{Axes, ImportedScene, Options};
 use super::{first, import_text, imported, numbers, options_of, read, refused, text_of, value};
 
 /// Number of bodies, and number of joints and couplings, counted by hand.
-const FILES: [(&str, [usize; 2]); 8] = [
+const FILES: [(&str, [usize; 2]); 9] = [
     ("sdf/four-bar.sdf", [3, 4]),
     ("sdf/tilted.sdf", [3, 4]),
     ("sdf/rounded.sdf", [3, 4]),
@@ -16,6 +16,8 @@ const FILES: [(&str, [usize; 2]); 8] = [
     ("sdf/old.sdf", [1, 1]),
     ("sdf/follows.sdf", [2, 3]),
     ("sdf/bare.sdf", [1, 1]),
+    // The wall is static, and the leaf has an inner model with one link.
+    ("sdf/models.sdf", [3, 3]),
 ];
 
 #[test]
@@ -222,8 +224,8 @@ fn faults_have_codes_and_lines() {
         ),
         (joint("universal", ""), "P0604", 2),
         (joint("screw", ""), "P0604", 2),
-        (model("<include/>"), "P0608", 2),
-        (model("<model/>"), "P0608", 2),
+        (model("<include/>"), "P0604", 2),
+        (model("<model/>"), "P0604", 2),
         (model("<static>true</static>"), "P0609", 1),
         (
             model("<frame name='f'><pose relative_to='g'/></frame>"),
