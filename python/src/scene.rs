@@ -7,7 +7,7 @@ use std::sync::{Arc, LazyLock, Mutex, PoisonError};
 use numpy::{IntoPyArray, PyArray1, PyArray2};
 use pfaff::choice::choices;
 use pfaff::documents::EventDocument;
-use pfaff::import::{Axes, Base, FixedLinks, Folder, Options};
+use pfaff::import::{Axes, Base, Drives, FixedLinks, Folder, Options};
 use pfaff::memory::Budget;
 use pfaff::model::codes::Code;
 use pfaff::model::{Mechanism, Registry, System, Tolerance};
@@ -401,7 +401,7 @@ impl Scene {
     /// Converts a robot model to a scene. Returns the scene, its remarks, and the omitted elements
     /// as pairs of kind and subject.
     #[staticmethod]
-    #[pyo3(signature = (format, path, text, base, fixed, snap, keyframe, model, pose, loops))]
+    #[pyo3(signature = (format, path, text, base, fixed, snap, keyframe, model, drives, pose, loops))]
     #[allow(clippy::too_many_arguments)]
     fn imported(
         py: Python<'_>,
@@ -413,6 +413,7 @@ impl Scene {
         snap: bool,
         keyframe: Option<String>,
         model: Option<String>,
+        drives: String,
         pose: Vec<(String, f64)>,
         loops: Option<PathBuf>,
     ) -> PyResult<(Self, Vec<String>, Vec<Omission>)> {
@@ -421,6 +422,10 @@ impl Scene {
                 .into_iter()
                 .find(|known| known.name() == base)
                 .ok_or_else(|| unknown("base", &base, &Base::ALL.map(Base::name)))?;
+            let drives = Drives::ALL
+                .into_iter()
+                .find(|known| known.name() == drives)
+                .ok_or_else(|| unknown("drives", &drives, &Drives::ALL.map(Drives::name)))?;
             let folder = match &text {
                 Some(_) => Folder::None,
                 None => Folder::of(&path),
@@ -442,6 +447,7 @@ impl Scene {
                 pose,
                 keyframe,
                 model,
+                drives,
             };
             let imported = pfaff::import::import(&name, &text, &options);
             let imported = imported.map_err(|refusal| Refusal::from(*refusal))?;

@@ -173,6 +173,36 @@ pub(crate) fn plugin(
         refuse(element, &format!("the plugin `{shown}`"), advice, findings);
     } else {
         findings.leave_element(kind, element, &subject);
+        if names.iter().any(|name| is_controller(name)) {
+            controller(element, scope, model, findings);
+        }
+    }
+}
+
+/// Whether a plugin of Gazebo with this name acts on joints.
+fn is_controller(name: &str) -> bool {
+    let letters: String = name.chars().filter(char::is_ascii_alphanumeric).collect();
+    let letters = letters.to_lowercase();
+    CONTROLLERS.iter().any(|known| letters.contains(known))
+}
+
+const CONTROLLERS: [&str; 4] = [
+    "jointcontroller",
+    "jointpositioncontroller",
+    "jointtrajectorycontroller",
+    "applyjointforce",
+];
+
+/// Records the joints of a controller as actuated.
+fn controller(element: Element, scope: &Scope, model: &mut Model, findings: &Findings) {
+    for child in element
+        .children()
+        .filter(|child| child.name() == "joint_name")
+    {
+        if let Some(number) = scope.number_of(child.text().text) {
+            let is_plain = false;
+            model.actuate("", (number, 0), is_plain, findings);
+        }
     }
 }
 

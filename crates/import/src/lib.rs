@@ -12,6 +12,7 @@
 //! | `mjcf`, `urdf` with `loops`, `sdf` | one reader for each format |
 //! | `solids`, `extensions` | common parts of URDF and SDF; elements of other programs that change the mechanism |
 //! | `mechanism`, `mass` | links, joints, couplings, keyframes; masses and simple solids |
+//! | `drives` | drives from actuators |
 //! | `couple` | couplings that are not satisfied at the described pose of the links |
 //! | `digits`, `tolerance`, `angles` | the decimal places of the numbers of a file, and the accuracy of these numbers; angles in another unit |
 //! | `pose` | poses of links for given joint coordinates |
@@ -25,6 +26,7 @@ mod assemble;
 mod axes;
 mod couple;
 mod digits;
+mod drives;
 mod extensions;
 mod files;
 mod findings;
@@ -51,7 +53,7 @@ use scene::{Diagnostic, SourceText};
 pub use axes::Axes;
 pub use files::Folder;
 pub use findings::Omission;
-pub use options::{Base, FixedLinks, Options};
+pub use options::{Base, Drives, FixedLinks, Options};
 
 use findings::{Fault, Findings};
 use mechanism::Model;
@@ -163,6 +165,7 @@ pub fn import(name: &str, text: &str, options: &Options) -> Result<ImportedScene
     }
     check(&model, files.root(), &mut findings);
     couple::settle(&mut model, &mut findings);
+    drives::add(&mut model, options.drives, format, &mut findings);
     let tolerance = tolerance::tolerances(&model, &mut findings);
     let mut gap = 0.0;
     let motions = start::start(

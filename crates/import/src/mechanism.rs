@@ -3,8 +3,11 @@
 //! All positions refer to the *described* pose, at which the coordinates of all joints have the
 //! values `zero`. A link that is `None` is the ground.
 
+use std::collections::HashSet;
+
 use nalgebra::{Isometry3, UnitQuaternion, Vector3};
 
+use crate::findings::Findings;
 use crate::mass::Mass;
 
 /// A rigid part of a file.
@@ -146,6 +149,29 @@ pub(crate) struct Coupling {
     pub(crate) is_active: bool,
 }
 
+/// An actuator of the file that acts on a joint coordinate.
+#[derive(Clone, Debug)]
+pub(crate) struct Actuator {
+    /// The name in the file; empty if the element has no name of its own.
+    pub(crate) name: String,
+    /// Joint and coordinate.
+    pub(crate) at: (usize, usize),
+    /// The index of its element in the omissions.
+    pub(crate) omission: usize,
+    /// Whether the actuator is a force on the coordinate itself, without a gear, a law or limits.
+    pub(crate) is_plain: bool,
+}
+
+/// A drive of the scene.
+#[derive(Clone, Debug)]
+pub(crate) struct Drive {
+    pub(crate) name: String,
+    /// Joint and coordinate.
+    pub(crate) at: (usize, usize),
+    /// Whether the drive prescribes the coordinate. Otherwise it has a force law.
+    pub(crate) is_motion: bool,
+}
+
 /// A named frame of a link, from a site or frame of the file.
 #[derive(Clone, Debug)]
 pub(crate) struct Frame {
@@ -177,6 +203,10 @@ pub(crate) struct Model {
     pub(crate) links: Vec<Link>,
     pub(crate) joints: Vec<Joint>,
     pub(crate) couplings: Vec<Coupling>,
+    pub(crate) actuators: Vec<Actuator>,
+    /// Joints on which no actuator can act.
+    pub(crate) passive: HashSet<usize>,
+    pub(crate) drives: Vec<Drive>,
     pub(crate) frames: Vec<Frame>,
     pub(crate) states: Vec<Keyframe>,
 }
@@ -187,6 +217,27 @@ impl Model {
         let active = self.joints.iter().filter(|joint| joint.is_active);
         let loads = active.flat_map(|joint| joint.loads);
         loads.filter(|load| load.armature != 0.0).count()
+    }
+
+    /// Adds an actuator whose element is the last omission. If the joint does not have the
+    /// coordinate, the element remains an omission.
+    pub(crate) fn actuate(
+        &mut self,
+        name: &str,
+        at: (usize, usize),
+        is_plain: bool,
+        findings: &Findings,
+    ) {
+        let joint = self.joints.get(at.0);
+        let has = joint.is_some_and(|joint| joint.kind.measures().len() > at.1);
+        if let (true, Some(omission)) = (has, findings.omissions.len().checked_sub(1)) {
+            self.actuators.push(Actuator {
+                name: name.trim().to_owned(),
+                at,
+                omission,
+                is_plain,
+            });
+        }
     }
 
     /// Pose of a link at the described pose of the model.

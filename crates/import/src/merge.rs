@@ -70,6 +70,11 @@ pub(crate) fn merge(model: &mut Model, motions: &mut Vec<Motion>, findings: &mut
         coupling.x = x.and_then(|(joint, coordinate)| Some((joint?, coordinate)));
         true
     });
+    model.drives.retain_mut(|drive| {
+        let new = kept[drive.at.0];
+        drive.at.0 = new.unwrap_or_default();
+        new.is_some()
+    });
     for frame in &mut model.frames {
         let (link, pose) = place(frame.link);
         frame.link = link;

@@ -31,6 +31,16 @@ use source::Source;
 const IDLE_ACTUATORS: &str = "actuators";
 const ACTING: &str = "actuators that also act without a signal: accelerations differ";
 
+/// Elements of `<actuator>` with a gear, which can act on joints.
+const ACTUATORS: [&str; 6] = [
+    "general",
+    "motor",
+    "position",
+    "velocity",
+    "intvelocity",
+    "damper",
+];
+
 /// Reads a model. Problems are added to `findings`.
 pub(crate) fn read<'a>(
     files: &'a Files<'a>,
@@ -158,6 +168,9 @@ impl<'a> Reader<'a, '_> {
                 _ => left,
             };
             self.source.findings.leave_element(left, child, &subject);
+            if section.name() == "actuator" {
+                self.actuate(child);
+            }
         }
         if is_empty && section.attributes().next().is_some() {
             self.source.findings.leave_element(left, section, "");
@@ -187,6 +200,34 @@ impl<'a> Reader<'a, '_> {
             "cylinder" if !has(&element, "bias") => IDLE_ACTUATORS,
             _ => ACTING,
         }
+    }
+
+    /// Records an actuator that acts on a joint coordinate.
+    fn actuate(&mut self, element: Element<'a>) {
+        let joint = element.attribute("joint");
+        let joint = joint.or_else(|| element.attribute("jointinparent"));
+        let Some(at) = joint.and_then(|joint| self.joints.get(joint.text.trim()).copied()) else {
+            return;
+        };
+        let name = element.attribute("name").map_or("", |name| name.text);
+        let class = self.source.attributes(element, 0).class;
+        // Defaults of each kind of actuator apply to all kinds.
+        let get = |key: &str| {
+            let kinds = ACTUATORS.iter();
+            let default = |kind: &&str| self.source.defaults.get(class, kind, key);
+            element
+                .attribute(key)
+                .or_else(|| { kinds }.find_map(default))
+        };
+        let gear = get("gear");
+        let first = gear.and_then(|gear| gear.text.split_whitespace().next()?.parse().ok());
+        let has = |key| get(key).is_some();
+        let is_plain = element.name() == "motor"
+            && first.unwrap_or(1.0) == 1.0
+            && !["ctrlrange", "forcerange", "damping", "armature"]
+                .into_iter()
+                .any(has);
+        self.model.actuate(name, at, is_plain, self.source.findings);
     }
 
     /// Records the tendons of a section by their names.

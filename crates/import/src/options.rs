@@ -24,6 +24,8 @@ pub struct Options {
     pub keyframe: Option<String>,
     /// The only model of an SDF file that is read. Without a name, all models are read.
     pub model: Option<String>,
+    /// Drives from the actuators of the file.
+    pub drives: Drives,
 }
 
 impl Default for Options {
@@ -37,6 +39,7 @@ impl Default for Options {
             axes: Axes::Told,
             keyframe: None,
             model: None,
+            drives: Drives::None,
         }
     }
 }
@@ -69,6 +72,32 @@ impl Base {
         match self {
             Self::Fixed => "fixed",
             Self::Free => "free",
+        }
+    }
+}
+
+/// Drives from the actuators of a file.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Drives {
+    /// Actuators are omitted and reported.
+    None,
+    /// Each actuated joint coordinate has a drive with a torque or force of zero.
+    Torque,
+    /// Each actuated joint coordinate has a drive that locks it.
+    Position,
+}
+
+impl Drives {
+    /// All values.
+    pub const ALL: [Self; 3] = [Self::None, Self::Torque, Self::Position];
+
+    /// Name on a command line.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::None => "none",
+            Self::Torque => "torque",
+            Self::Position => "position",
         }
     }
 }

@@ -6,16 +6,15 @@ mod names;
 mod parts;
 mod scope;
 
-use std::collections::HashSet;
+use std::collections::{HashMap, HashSet};
 
 use model::words::quantity;
 use nalgebra::{Isometry3, Vector3};
 
 use crate::extensions;
-use crate::files::{Files, version_of};
+use crate::files::Files;
 use crate::findings::{Fault, Findings, NumberKind};
 use crate::limits::APART;
-use crate::mass::Mass;
 use crate::mechanism::{Coupling, Frame, JointKind, Link, Load, Model};
 use crate::solids::{FRICTION, assume_gravity, find_tree, joint_between, with_second_axis};
 use crate::xml::{Element, Value};
@@ -47,13 +46,17 @@ pub(crate) fn read<'a>(
     }
     let frames = Frames::of_world(&world, findings);
     let names = SceneNames::of(&world);
-    let reader = Reader {
+    let mut reader = Reader {
         world: &frames,
         names: &names,
+        numbers: HashMap::new(),
     };
     reader.links(&world, &frames, false, &mut model, findings);
     reader.joints(&world, &frames, &mut model, findings);
+    let joints = model.joints.iter().enumerate();
+    reader.numbers = joints.map(|(k, joint)| (joint.name.clone(), k)).collect();
     reader.mimics(&world, &frames, &mut model, findings);
+    reader.plugins(&world, &frames, &mut model, findings);
     find_tree(&mut model);
     model
 }
@@ -78,6 +81,8 @@ fn name_of(world: &Part) -> String {
 struct Reader<'r> {
     world: &'r Frames,
     names: &'r SceneNames,
+    /// The joints by name, after they were read.
+    numbers: HashMap<String, usize>,
 }
 
 impl<'r> Reader<'r> {
@@ -94,8 +99,11 @@ impl<'r> Reader<'r> {
         for item in part.items_of("link") {
             let name = self.names.place(&part.path, item.name);
             let pose = frames.pose(item.name).unwrap_or_default();
-            let (mass, held_weight) =
-                link(item.element, item.name, frames, findings).unwrap_or_default();
+            let held_weight = held_weight(item.element, item.name, findings);
+            // A static link has no inertia.
+            let mass =
+                (!is_static).then(|| inertial::mass_of(item.element, item.name, frames, findings));
+            let mass = mass.flatten().unwrap_or_default();
             let number = model.links.len();
             model.links.push(Link {
                 name: name.clone(),
@@ -116,7 +124,7 @@ impl<'r> Reader<'r> {
         }
     }
 
-    /// Reads the joints, frames and plugins of a model and of the models within it.
+    /// Reads the joints and frames of a model and of the models within it.
     fn joints(&self, part: &Part, frames: &Frames, model: &mut Model, findings: &mut Findings) {
         for (name, link, pose) in frames.places(&model.links) {
             let name = self.names.place(&part.path, &name);
@@ -134,10 +142,6 @@ impl<'r> Reader<'r> {
                 model,
                 findings,
             );
-        }
-        for item in part.items_of("plugin") {
-            let scope = self.scope(part, item, frames);
-            extensions::plugin(item.element, &scope, model, "plugins", findings);
         }
         for (inner, frames) in inner(part, frames) {
             self.joints(inner, frames, model, findings);
@@ -158,16 +162,19 @@ impl<'r> Reader<'r> {
         }
     }
 
+    fn plugins(&self, part: &Part, frames: &Frames, model: &mut Model, findings: &mut Findings) {
+        for item in part.items_of("plugin") {
+            let scope = self.scope(part, item, frames);
+            extensions::plugin(item.element, &scope, model, "plugins", findings);
+        }
+        for (inner, frames) in inner(part, frames) {
+            self.plugins(inner, frames, model, findings);
+        }
+    }
+
     fn scope<'s>(&'s self, part: &'s Part, item: &Item, frames: &'s Frames) -> Scope<'s> {
-        let version = item.element.file_root().attribute("version");
-        let in_model = version.is_some_and(|value| version_of(value.text) < (1, 5));
-        Scope::of_part(
-            part,
-            item.within,
-            [self.world, frames],
-            self.names,
-            in_model,
-        )
+        let frames = [self.world, frames];
+        Scope::of_item(item, part, frames, self.names, &self.numbers)
     }
 }
 
@@ -184,25 +191,16 @@ fn unsupported(element: Element, message: &str, findings: &mut Findings) {
     findings.of(Fault::Unsupported, element, message);
 }
 
-/// Returns the mass of a link, and the compensated share of the weight.
-fn link(
-    element: Element,
-    name: &str,
-    frames: &Frames,
-    findings: &mut Findings,
-) -> Option<(Mass, f64)> {
-    let mut held = 0.0;
-    for child in element.children() {
-        match child.name() {
-            "collision" => findings.leave_element("contacts of links", child, name),
-            "gravity" => {
-                let falls = findings.boolean(&child.text()).unwrap_or(true);
-                held = if falls { 0.0 } else { 1.0 };
-            }
-            _ => {}
-        }
+/// Returns the compensated share of the weight of a link, and reports its contacts.
+fn held_weight(link: Element, name: &str, findings: &mut Findings) -> f64 {
+    for collision in link.children().filter(|child| child.name() == "collision") {
+        findings.leave_element("contacts of links", collision, name);
     }
-    Some((inertial::mass_of(element, name, frames, findings)?, held))
+    let falls = link.text_of("gravity");
+    let falls = falls
+        .and_then(|value| findings.boolean(&value))
+        .unwrap_or(true);
+    if falls { 0.0 } else { 1.0 }
 }
 
 /// An axis with its loads.
@@ -265,6 +263,9 @@ fn read_joint(
         None => z,
     };
     let found = kind_of(element, name, &kind, findings)?;
+    if is_passive(element) {
+        model.passive.insert(model.joints.len());
+    }
     let mut joint = joint_between(
         model,
         &scope.joint(name),
@@ -295,6 +296,13 @@ fn read_joint(
         model.joints.push(joint);
     }
     Some(())
+}
+
+/// Whether a joint has an effort limit of zero, so that no actuator can act on it.
+fn is_passive(joint: Element) -> bool {
+    let limit = joint.child("axis").and_then(|axis| axis.child("limit"));
+    let effort = limit.and_then(|limit| limit.text_of("effort"));
+    effort.is_some_and(|effort| effort.text.parse() == Ok(0.0))
 }
 
 /// Reports a joint that is not at its parent frame. SDF places a joint at its child.
@@ -475,16 +483,12 @@ fn mimic(element: Element, scope: &Scope, model: &mut Model, findings: &mut Find
             findings.missing(mimic, "a `joint`");
             continue;
         };
-        let find = |name: &str| {
-            let name = scope.joint(name.trim());
-            model.joints.iter().position(|joint| joint.name == name)
-        };
         let led = usize::from(
             mimic
                 .attribute("axis")
                 .is_some_and(|axis| axis.text == "axis2"),
         );
-        let (Some(y), Some(x)) = (find(name.text), find(other.text)) else {
+        let (Some(y), Some(x)) = (scope.number_of(name.text), scope.number_of(other.text)) else {
             let message = format!("there is no joint `{}`", other.text);
             findings.at(Fault::Unknown, &other, message);
             continue;

@@ -58,7 +58,7 @@ pub(crate) fn read(root: Element, base: Base, findings: &mut Findings) -> Model 
     }
     let frames = sdf::Frames::of_links(&names);
     let own = model.name.clone();
-    let scope = sdf::Scope::of_links(&frames, &own);
+    let scope = sdf::Scope::of_links(&frames, &own, &numbers);
     for child in root.children() {
         match child.name() {
             "gazebo" => gazebo(child, &scope, &mut model, findings),
@@ -68,10 +68,8 @@ pub(crate) fn read(root: Element, base: Base, findings: &mut Findings) -> Model 
                 // Missing or wrong content has already been reported.
                 let _ = extensions::loop_joint(child, &scope, &mut model, frame, findings);
             }
-            "transmission" => {
-                let name = child.attribute("name").map_or("", |name| name.text);
-                findings.leave_element("actuators", child, name);
-            }
+            "transmission" => transmission(child, &scope, &mut model, findings),
+            "ros2_control" => control(child, &scope, &mut model, findings),
             _ => {}
         }
     }
@@ -451,6 +449,52 @@ fn coupling(
         coefficients,
         is_active: true,
     })
+}
+
+/// Kind of omission for actuators.
+const ACTUATORS: &str = "actuators";
+
+/// Leaves out a `<transmission>`, and records its actuators.
+fn transmission(element: Element, scope: &sdf::Scope, model: &mut Model, findings: &mut Findings) {
+    let name = element.attribute("name").map_or("", |name| name.text);
+    findings.leave_element(ACTUATORS, element, name);
+    let joints: Vec<_> = element
+        .children()
+        .filter(|child| child.name() == "joint")
+        .collect();
+    let actuator = element.child("actuator").filter(|_| joints.len() == 1);
+    let name = actuator.and_then(|actuator| actuator.attribute("name"));
+    let name = name.map_or("", |name| name.text);
+    let reductions = [Some(element), actuator].into_iter().flatten();
+    let mut reductions = reductions.filter_map(|of| of.text_of("mechanicalReduction"));
+    let is_plain = reductions.all(|value| value.text.parse() == Ok(1.0));
+    for joint in joints {
+        actuate(joint, (name, is_plain), scope, model, findings);
+    }
+}
+
+/// Leaves out a `<ros2_control>`, and records the joints that it commands.
+fn control(element: Element, scope: &sdf::Scope, model: &mut Model, findings: &mut Findings) {
+    let name = element.attribute("name").map_or("", |name| name.text);
+    findings.leave_element(ACTUATORS, element, &format!("<ros2_control> `{name}`"));
+    let joints = element.children().filter(|child| child.name() == "joint");
+    for joint in joints.filter(|joint| joint.child("command_interface").is_some()) {
+        actuate(joint, ("", false), scope, model, findings);
+    }
+}
+
+/// Records an actuator with its name, and whether it is only a force.
+fn actuate(
+    joint: Element,
+    (name, is_plain): (&str, bool),
+    scope: &sdf::Scope,
+    model: &mut Model,
+    findings: &Findings,
+) {
+    let of = joint.attribute("name").map_or("", |name| name.text);
+    if let Some(number) = scope.number_of(of) {
+        model.actuate(name, (number, 0), is_plain, findings);
+    }
 }
 
 /// Kind of omission for content of `<gazebo>`.

@@ -28,6 +28,7 @@ pub(crate) fn scene(model: &Model, heading: &Heading, findings: &mut Findings) -
     writer.bodies(heading, &mut body);
     writer.joints(&mut body);
     writer.couplings(&mut body);
+    writer.drives(&mut body);
     writer.loads(&mut body);
     writer.markers(&mut body);
     let needs_format = writer.needs_format;
@@ -304,14 +305,7 @@ impl<'a> Writer<'a> {
             let name = self.elements.take(&coupling.name, self.findings);
             let (joint, coordinate) = coupling.y;
             let Some(x) = coupling.x else {
-                let measures = self.model.joints[joint].kind.measures();
-                table(out, "drive", &name);
-                key(out, "joint", &text(&self.joints[joint]));
-                key(
-                    out,
-                    "type",
-                    &text(measures.get(coordinate).unwrap_or(&"angle")),
-                );
+                self.drive(&name, (joint, coordinate), out);
                 key(out, "motion", "0");
                 if !coupling.is_active {
                     key(out, "active", "false");
@@ -335,6 +329,30 @@ impl<'a> Writer<'a> {
             if !coupling.is_active {
                 key(out, "active", "false");
             }
+        }
+    }
+
+    /// Writes a drive of a coordinate, without its motion or law. Returns the coordinate.
+    fn drive(&self, name: &str, (joint, coordinate): (usize, usize), out: &mut String) -> &str {
+        let measures = self.model.joints[joint].kind.measures();
+        let measure = measures.get(coordinate).copied().unwrap_or("angle");
+        table(out, "drive", name);
+        key(out, "joint", &text(&self.joints[joint]));
+        key(out, "type", &text(measure));
+        measure
+    }
+
+    fn drives(&mut self, out: &mut String) {
+        for drive in &self.model.drives {
+            let name = self.elements.take(&drive.name, self.findings);
+            let measure = self.drive(&name, drive.at, out);
+            let load = match (drive.is_motion, measure) {
+                (true, _) => "motion",
+                (false, "displacement") => "force",
+                (false, _) => "torque",
+            };
+            key(out, load, "0");
+            self.needs_format |= !drive.is_motion;
         }
     }
 
@@ -407,9 +425,7 @@ impl<'a> Writer<'a> {
         };
         if *measure == "displacement" {
             self.needs_format = true;
-            table(out, "drive", &name);
-            key(out, "joint", &text(&self.joints[k]));
-            key(out, "type", "\"displacement\"");
+            self.drive(&name, (k, coordinate), out);
             let sign = if free < 0.0 { '+' } else { '-' };
             let (k, c, free) = (number(stiffness), number(damping), number(free.abs()));
             let law = match (stiffness != 0.0, damping != 0.0) {

@@ -10,7 +10,7 @@ use clap::builder::PossibleValuesParser;
 use clap::{Args, Parser, Subcommand};
 use clap_complete::Shell;
 use pfaff::command::named;
-use pfaff::import::Base;
+use pfaff::import::{Base, Drives};
 use pfaff::questions::Questions;
 use pfaff::template::Template;
 
@@ -121,6 +121,9 @@ pub(crate) struct Import {
     /// Start at a keyframe of the file
     #[arg(long, value_name = "NAME")]
     pub(crate) keyframe: Option<String>,
+    /// Add drives from actuators, with zero torque or locked
+    #[arg(long, value_name = "DRIVES", default_value = "none", value_parser = named(&Drives::ALL, Drives::name))]
+    pub(crate) drives: Drives,
     /// Read only one model of an SDF file
     #[arg(long, value_name = "NAME")]
     pub(crate) model: Option<String>,

@@ -80,6 +80,7 @@ fn options(arguments: &Import) -> Result<Options, Failure> {
         },
         keyframe: arguments.keyframe.clone(),
         model: arguments.model.clone(),
+        drives: arguments.drives,
     })
 }
 

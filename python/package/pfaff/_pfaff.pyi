@@ -69,7 +69,7 @@ class Scene:
         Reads a file.
         """
     @staticmethod
-    def imported(format: str, path: str | PathLike[str], text: str | None, base: str, fixed: bool, snap: bool, keyframe: str | None, model: str | None, pose: SupportsGetItem[int, tuple[str, SupportsFloat | SupportsIndex]], loops: str | PathLike[str] | None) -> tuple[Scene, list[str], list[tuple[str, str, int]]]:
+    def imported(format: str, path: str | PathLike[str], text: str | None, base: str, fixed: bool, snap: bool, keyframe: str | None, model: str | None, drives: str, pose: SupportsGetItem[int, tuple[str, SupportsFloat | SupportsIndex]], loops: str | PathLike[str] | None) -> tuple[Scene, list[str], list[tuple[str, str, int]]]:
         """
         Converts a robot model to a scene. Returns the scene, its remarks, and the omitted elements
         as pairs of kind and subject.

@@ -109,6 +109,7 @@ class Scene(Questions):
         snap: bool = False,
         keyframe: str | None = None,
         model: str | None = None,
+        drives: str = "none",
         pose: Mapping[str, float] | None = None,
         loops: str | os.PathLike[str] | None = None,
     ) -> tuple[Scene, list[str], list[tuple[str, str, int]]]:
@@ -117,8 +118,10 @@ class Scene(Questions):
         Each omitted element has kind, subject and line. ``format`` is ``"MJCF"``, ``"URDF"`` or
         ``"SDF"``. The other arguments are the options of ``pfaff import``: ``base`` (``"fixed"`` or
         ``"free"``), ``keep_fixed``, ``snap``, ``keyframe``, ``model`` (the only model of an SDF
-        file that is read), ``pose`` (values of joints near which loops are closed) and ``loops`` (a
-        file of loop closures of a URDF). If ``text`` replaces a file, no other file is included.
+        file that is read), ``drives`` (``"torque"`` or ``"position"``: drives from actuators, with a
+        torque of zero or locked), ``pose`` (values of joints near which loops are closed) and
+        ``loops`` (a file of loop closures of a URDF). If ``text`` replaces a file, no other file is
+        included.
         """
         if path is None and text is None:
             raise wrong("need a path or a text")
@@ -133,6 +136,7 @@ class Scene(Questions):
             arguments.flag("snap", snap),
             arguments.maybe(arguments.text, "keyframe", keyframe),
             arguments.maybe(arguments.text, "model", model),
+            arguments.text("drives", drives),
             list(joints.items()),
             arguments.maybe(arguments.path, "loops", loops),
         )

@@ -102,7 +102,7 @@ const ENTRIES: &[Entry] = &[
     )
     .left(&[("first positions of joints", "<initial_position>")]),
     Entry::new("xyz", "expressed_in"),
-    Entry::new("limit", "<lower> <upper>").idle("<effort> <velocity> <stiffness> <dissipation>"),
+    Entry::new("limit", "<lower> <upper> <effort>").idle("<velocity> <stiffness> <dissipation>"),
     Entry::new(
         "dynamics",
         "<damping> <friction> <spring_reference> <spring_stiffness>",

@@ -17,6 +17,8 @@ pub(super) struct Part<'a> {
     pub(super) name: String,
     /// The names of the surrounding models and of this model; empty for the world.
     pub(super) path: String,
+    /// The number of surrounding models.
+    depth: usize,
     pub(super) place: Place<'a>,
     pub(super) is_static: bool,
     pub(super) is_world: bool,
@@ -125,6 +127,7 @@ pub(super) fn world<'a>(
         element: worlds.first().copied().unwrap_or(root),
         name: String::new(),
         path: String::new(),
+        depth: 0,
         place: Place {
             pose: None,
             frame: None,
@@ -270,7 +273,7 @@ impl<'a> Builder<'a, '_> {
         } else {
             format!("{}/{name}", around.path)
         };
-        if path.matches('/').count() >= DEEPEST_MODEL {
+        if around.depth >= DEEPEST_MODEL {
             let message = format!("models are nested more than {DEEPEST_MODEL} deep");
             return self.findings.of(Fault::Structure, element, message);
         }
@@ -278,6 +281,7 @@ impl<'a> Builder<'a, '_> {
             element,
             name,
             path,
+            depth: around.depth + 1,
             place: Place::of(element, include, within),
             is_static: false,
             is_world: false,

@@ -1,11 +1,12 @@
 //! The names that an element of a model can use, and the names of the scene.
 
-use std::collections::HashSet;
+use std::collections::{HashMap, HashSet};
 
 use nalgebra::Isometry3;
 
 use super::frames::Frames;
-use super::parts::Part;
+use super::parts::{Item, Part};
+use crate::files::version_of;
 use crate::findings::{Fault, Findings};
 use crate::xml::Value;
 
@@ -20,13 +21,19 @@ pub(crate) struct Scope<'s> {
     /// The frame that `__model__` means.
     own: &'s str,
     names: Option<&'s SceneNames>,
+    /// The joints by their names in the scene.
+    numbers: &'s HashMap<String, usize>,
     /// Whether joint axes are given in the axes of the model, as in versions before 1.5.
     pub(super) in_model: bool,
 }
 
 impl<'s> Scope<'s> {
     /// The scope for elements in `<gazebo>` of a URDF.
-    pub(crate) fn of_links(frames: &'s Frames, model: &'s str) -> Self {
+    pub(crate) fn of_links(
+        frames: &'s Frames,
+        model: &'s str,
+        numbers: &'s HashMap<String, usize>,
+    ) -> Self {
         Self {
             frames,
             world: None,
@@ -34,19 +41,21 @@ impl<'s> Scope<'s> {
             path: "",
             own: "__model__",
             names: None,
+            numbers,
             in_model: false,
         }
     }
 
-    /// The scope for an element of a model that belongs to the model itself, or to a merged model.
-    pub(super) fn of_part(
+    /// The scope for an element of a model.
+    pub(super) fn of_item(
+        item: &Item,
         part: &'s Part,
-        within: Option<usize>,
         [world, frames]: [&'s Frames; 2],
         names: &'s SceneNames,
-        in_model: bool,
+        numbers: &'s HashMap<String, usize>,
     ) -> Self {
-        let merged = within.and_then(|number| part.merged.get(number));
+        let version = item.element.file_root().attribute("version");
+        let merged = item.within.and_then(|number| part.merged.get(number));
         Self {
             frames,
             world: Some(world),
@@ -54,7 +63,8 @@ impl<'s> Scope<'s> {
             path: &part.path,
             own: merged.map_or("__model__", |merged| &merged.name),
             names: Some(names),
-            in_model,
+            numbers,
+            in_model: version.is_some_and(|value| version_of(value.text) < (1, 5)),
         }
     }
 
@@ -93,7 +103,7 @@ impl<'s> Scope<'s> {
             findings.at(Fault::Unsupported, model, message);
             return None;
         };
-        Scope::of_links(frames, name).link(link, findings)
+        Scope::of_links(frames, name, self.numbers).link(link, findings)
     }
 
     /// The pose of a name in ground axes.
@@ -111,6 +121,11 @@ impl<'s> Scope<'s> {
         's: 'n,
     {
         if name == "__model__" { self.own } else { name }
+    }
+
+    /// The number of a joint of this model, or of a model within it.
+    pub(crate) fn number_of(&self, name: &str) -> Option<usize> {
+        self.numbers.get(&self.joint(name.trim())).copied()
     }
 
     /// The name in the scene of a joint of this model, or of a model within it.

@@ -10,10 +10,10 @@ pub(crate) const NAMES: &Vocabulary = &Vocabulary {
 const ENTRIES: &[Entry] = &[
     Entry::new(
         "robot",
-        "name <link> <joint> <loop_joint> <drake:ball_constraint> <gazebo> <transmission>",
+        "name <link> <joint> <loop_joint> <drake:ball_constraint> <gazebo> <transmission> \
+         <ros2_control>",
     )
-    .idle("version <material>")
-    .left(&[("actuators", "<ros2_control>")]),
+    .idle("version <material>"),
     Entry::new("link", "name <inertial> <collision>")
         .idle("type <visual>")
         .left(&[

@@ -2,7 +2,7 @@
 //! scenes must be able to parse every imported scene. `PFAFF_FUZZ=100000` sets the number of files.
 
 use model::Registry;
-use pfaff_import::{Axes, Folder, Options};
+use pfaff_import::{Axes, Drives, Folder, Options};
 
 use super::{path_of, text_of};
 
@@ -172,6 +172,7 @@ fn changed_files_are_imported_or_refused() {
         } else {
             Axes::Told
         };
+        let drives = Drives::ALL[random.below(Drives::ALL.len())];
         match pfaff_import::import(
             file,
             &text,
@@ -181,6 +182,7 @@ fn changed_files_are_imported_or_refused() {
                 loops,
                 axes,
                 pose,
+                drives,
                 ..Options::default()
             },
         ) {

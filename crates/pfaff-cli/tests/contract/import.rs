@@ -52,3 +52,60 @@ fn a_scene_with_an_error_is_no_success() {
     assert_eq!(document["rotors"], 1);
     assert!(document["scene_error"].is_string(), "{document}");
 }
+
+/// The drive replaces the motor, and the motion can be computed.
+#[test]
+fn actuators_become_drives() {
+    let folder = Folder::new("import-drives");
+    fs::create_dir_all(&folder.0).expect("a folder");
+    let out = folder.0.join("scene.toml").display().to_string();
+    let motor = "<actuator><motor name='motor' joint='hinge' gear='9'/></actuator></mujoco>";
+    let text = pendulum("0.1 0.1 0.01").replace("</mujoco>", motor);
+    let words = stdout(&with_scene(&["import", "-", "--out", &out], &text));
+    assert!(
+        words.contains("omitted: actuators: motor (line 1)"),
+        "{words}"
+    );
+    let arguments = [
+        "import", "-", "--out", &out, "--force", "--drives", "torque",
+    ];
+    let words = stdout(&with_scene(&arguments, &text));
+    assert!(
+        words.contains("note: Drives from actuators: `motor` on `hinge`."),
+        "{words}"
+    );
+    assert!(words.contains("omitted: gear ratios"), "{words}");
+    let arguments = [
+        "import", "-", "--out", &out, "--force", "--drives", "position",
+    ];
+    stdout(&with_scene(&arguments, &text));
+    let checked = stdout(&pfaff(&["check", &out]));
+    assert!(checked.contains("4 joints and drives"), "{checked}");
+}
+
+/// The other model of the file is reported.
+#[test]
+fn one_model_of_a_file_is_chosen() {
+    let folder = Folder::new("import-model");
+    fs::create_dir_all(&folder.0).expect("a folder");
+    let out = folder.0.join("scene.toml").display().to_string();
+    let model = |name: &str| {
+        format!(
+            "<model name='{name}'><link name='rod'/><joint name='pin' type='ball'>\
+             <parent>world</parent><child>rod</child></joint></model>"
+        )
+    };
+    let text = format!("<sdf version='1.9'>{}{}</sdf>", model("a"), model("b"));
+    let arguments = ["import", "-", "--out", &out, "--model", "b"];
+    let words = stdout(&with_scene(&arguments, &text));
+    assert!(
+        words.starts_with("SDF: 1 body, 1 joint or coupling"),
+        "{words}"
+    );
+    assert!(
+        words.contains("omitted: models that are not chosen: a (line 1)"),
+        "{words}"
+    );
+    let output = with_scene(&["import", "-", "--out", &out, "--model", "c"], &text);
+    assert_eq!(output.status.code(), Some(2));
+}
