@@ -306,6 +306,22 @@ def test_imports(command: Command, tmp_path: Path) -> None:
     assert str(raised.value) == expected.stderr.rstrip()
 
 
+def test_imports_of_models_and_drives(command: Command, tmp_path: Path) -> None:
+    models = [
+        f"""<model name="{name}"><link name="rod"/><joint name="pin" type="revolute">
+        <parent>world</parent><child>rod</child></joint></model>"""
+        for name in ("left", "right")
+    ]
+    path, out = tmp_path / "two.sdf", tmp_path / "out.toml"
+    path.write_text(f"""<sdf version="1.9">{"".join(models)}</sdf>""", encoding="utf-8")
+    command.run("import", path, "--out", out, "--model", "right", "--drives", "torque")
+    scene = pfaff.Scene.from_sdf(path, model="right", drives="torque")
+    assert scene.text == out.read_text(encoding="utf-8")
+    run = scene.simulate(t_end=1.0, drives={"pin drive": lambda t, angle, rate: 2.0})
+    # The joint is at the centre of mass, and the moment of inertia is 1 kg·m².
+    assert abs(run.body("rod").angular_velocity[-1][2] - 2.0) < 1e-8
+
+
 TOLERANCES: list[tuple[str, dict[str, Any], list[str]]] = [
     ("car", {"tolerance": 1e-3}, ["--tolerance", "1e-3"]),
     ("four-bar", {"tolerance": 1e-4, "angle_tolerance": 1e-3, "seed": 7}, ["--tolerance", "1e-4", "--angle-tolerance", "1e-3", "--seed", "7"]),

@@ -238,6 +238,8 @@ HOSTILE: list[tuple[str, Any]] = [
     ("nothing to import", lambda s: pfaff.Scene.from_urdf()),
     ("empty model", lambda s: pfaff.Scene.from_sdf(text="")),
     ("base", lambda s: pfaff.Scene.from_urdf(text="<robot/>", base="loose")),
+    ("drives", lambda s: pfaff.Scene.from_urdf(text="<robot/>", drives="some")),
+    ("no model", lambda s: pfaff.Scene.from_sdf(text="<sdf version='1.9'/>", model="arm")),
     ("no coordinate", lambda s: s.linearise(coordinates=["bob.z"])),
     ("nothing varies", lambda s: s.tolerance()),
     ("no samples", lambda s: s.tolerance(0, tolerance=1e-3)),

@@ -11,7 +11,7 @@ use scene::SourceText;
 use crate::findings::{Fault, Findings};
 use crate::limits::{DEEPEST, LARGEST, MOST_FILES};
 use crate::xml::{Element, Value, parse};
-pub(crate) use uris::{Unusable, version_of};
+pub(crate) use uris::{IncludeProblem, version_of};
 
 /// The folder in which included files may be.
 #[derive(Clone, Debug)]
@@ -82,7 +82,7 @@ pub(crate) struct Texts {
 
 /// The number of the text for each URI in each text of SDF, or the reason why the URI does not lead
 /// to a text.
-type Uris = HashMap<(usize, String), Result<usize, Unusable>>;
+type Uris = HashMap<(usize, String), Result<usize, IncludeProblem>>;
 
 /// Reads the given file and all included files.
 pub(crate) fn load(source: SourceText, folder: &Folder, findings: &mut Findings) -> Texts {
@@ -161,15 +161,15 @@ impl Texts {
         self.uris.insert(key, found);
     }
 
-    fn text_at(&mut self, from: &str, uri: &str, folder: &Folder) -> Result<usize, Unusable> {
+    fn text_at(&mut self, from: &str, uri: &str, folder: &Folder) -> Result<usize, IncludeProblem> {
         let name = uris::file_of(from, uri, folder)?;
         if let Some(number) = self.number_of(&name) {
             return Ok(number);
         }
         if self.all.len() > MOST_FILES {
-            return Err(Unusable::new(too_many()));
+            return Err(IncludeProblem::new(too_many()));
         }
-        let read = folder.read(&name).map_err(Unusable::new)?;
+        let read = folder.read(&name).map_err(IncludeProblem::new)?;
         self.all.push(SourceText::new(&name, &read));
         Ok(self.all.len() - 1)
     }
@@ -207,14 +207,14 @@ impl<'a> Files<'a> {
     }
 
     /// The root of the file to which the URI of an `<include>` of SDF leads.
-    pub(crate) fn of_uri(&self, uri: &Value) -> Result<Element<'a>, Unusable> {
+    pub(crate) fn of_uri(&self, uri: &Value) -> Result<Element<'a>, IncludeProblem> {
         let mut roots = self.roots.iter();
         let number = roots.position(|root| std::ptr::eq(root.source, uri.source));
         let found = number.and_then(|number| self.uris.get(&(number, uri.text.to_owned())));
         match found {
             Some(Ok(number)) => Ok(self.roots[*number]),
             Some(Err(reason)) => Err(reason.clone()),
-            None => Err(Unusable::new(too_many())),
+            None => Err(IncludeProblem::new(too_many())),
         }
     }
 

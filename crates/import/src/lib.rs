@@ -8,9 +8,9 @@
 //! | `xml`, `files` | protected parsing, elements with their positions in the text; included files |
 //! | `options` | options of an import |
 //! | `findings` | problems, omitted content, digits of numbers |
-//! | `vocabulary` | the names in a format; unknown names are rejected |
+//! | `vocabulary`, `changing` | the names in a format; unknown names are rejected, and names of content that changes the mechanism |
 //! | `mjcf`, `urdf` with `loops`, `sdf` | one reader for each format |
-//! | `solids`, `extensions` | common parts of URDF and SDF; elements of other programs that change the mechanism |
+//! | `solids`, `extensions` | common parts of URDF and SDF; elements of other programs that change the mechanism or act on joints |
 //! | `mechanism`, `mass` | links, joints, couplings, keyframes; masses and simple solids |
 //! | `drives` | drives from actuators |
 //! | `couple` | couplings that are not satisfied at the described pose of the links |
@@ -24,6 +24,7 @@
 mod angles;
 mod assemble;
 mod axes;
+mod changing;
 mod couple;
 mod digits;
 mod drives;
@@ -254,7 +255,8 @@ fn read<'a>(
         findings.of(Fault::Unsupported, root, message);
     }
     if options.model.is_some() && format != "SDF" {
-        let message = format!("a model is chosen only in SDF: a {format} file has one model");
+        let message =
+            format!("the option for a model is only for SDF: a {format} file has one model");
         findings.of(Fault::Unsupported, root, message);
     }
     // A file with misspelt names is rejected here. The readers would report the intended names as

@@ -169,7 +169,7 @@ impl<'a> Reader<'a, '_> {
             };
             self.source.findings.leave_element(left, child, &subject);
             if section.name() == "actuator" {
-                self.actuate(child);
+                actuate(self, child);
             }
         }
         if is_empty && section.attributes().next().is_some() {
@@ -200,34 +200,6 @@ impl<'a> Reader<'a, '_> {
             "cylinder" if !has(&element, "bias") => IDLE_ACTUATORS,
             _ => ACTING,
         }
-    }
-
-    /// Records an actuator that acts on a joint coordinate.
-    fn actuate(&mut self, element: Element<'a>) {
-        let joint = element.attribute("joint");
-        let joint = joint.or_else(|| element.attribute("jointinparent"));
-        let Some(at) = joint.and_then(|joint| self.joints.get(joint.text.trim()).copied()) else {
-            return;
-        };
-        let name = element.attribute("name").map_or("", |name| name.text);
-        let class = self.source.attributes(element, 0).class;
-        // Defaults of each kind of actuator apply to all kinds.
-        let get = |key: &str| {
-            let kinds = ACTUATORS.iter();
-            let default = |kind: &&str| self.source.defaults.get(class, kind, key);
-            element
-                .attribute(key)
-                .or_else(|| { kinds }.find_map(default))
-        };
-        let gear = get("gear");
-        let first = gear.and_then(|gear| gear.text.split_whitespace().next()?.parse().ok());
-        let has = |key| get(key).is_some();
-        let is_plain = element.name() == "motor"
-            && first.unwrap_or(1.0) == 1.0
-            && !["ctrlrange", "forcerange", "damping", "armature"]
-                .into_iter()
-                .any(has);
-        self.model.actuate(name, at, is_plain, self.source.findings);
     }
 
     /// Records the tendons of a section by their names.
@@ -266,4 +238,34 @@ impl<'a> Reader<'a, '_> {
             "tendons"
         }
     }
+}
+
+/// Records an actuator that acts on a joint coordinate.
+fn actuate<'a>(reader: &mut Reader<'a, '_>, element: Element<'a>) {
+    let joint = element.attribute("joint");
+    let joint = joint.or_else(|| element.attribute("jointinparent"));
+    let Some(at) = joint.and_then(|joint| reader.joints.get(joint.text.trim()).copied()) else {
+        return;
+    };
+    let name = element.attribute("name").map_or("", |name| name.text);
+    let class = reader.source.attributes(element, 0).class;
+    // Defaults of each kind of actuator apply to all kinds.
+    let get = |key: &str| {
+        let kinds = ACTUATORS.iter();
+        let default = |kind: &&str| reader.source.defaults.get(class, kind, key);
+        element
+            .attribute(key)
+            .or_else(|| { kinds }.find_map(default))
+    };
+    let gear = get("gear");
+    let first = gear.and_then(|gear| gear.text.split_whitespace().next()?.parse().ok());
+    let has = |key| get(key).is_some();
+    let is_plain = element.name() == "motor"
+        && first.unwrap_or(1.0) == 1.0
+        && !["ctrlrange", "forcerange", "damping", "armature"]
+            .into_iter()
+            .any(has);
+    reader
+        .model
+        .actuate(name, at, is_plain, reader.source.findings);
 }

@@ -20,8 +20,9 @@ use crate::solids::{FRICTION, assume_gravity, find_tree, joint_between, with_sec
 use crate::xml::{Element, Value};
 pub(crate) use frames::Frames;
 use frames::{base_of, pose_of};
+use inertial::{ModelLink, mass_of};
 pub(crate) use names::NAMES;
-use parts::{Item, Part};
+use parts::{ModelItem, Part};
 use scope::SceneNames;
 pub(crate) use scope::Scope;
 
@@ -46,7 +47,7 @@ pub(crate) fn read<'a>(
     }
     let frames = Frames::of_world(&world, findings);
     let names = SceneNames::of(&world);
-    let mut reader = Reader {
+    let mut reader = ModelReader {
         world: &frames,
         names: &names,
         numbers: HashMap::new(),
@@ -78,14 +79,14 @@ fn name_of(world: &Part) -> String {
 }
 
 /// Reads the elements of all models.
-struct Reader<'r> {
+struct ModelReader<'r> {
     world: &'r Frames,
     names: &'r SceneNames,
     /// The joints by name, after they were read.
     numbers: HashMap<String, usize>,
 }
 
-impl<'r> Reader<'r> {
+impl<'r> ModelReader<'r> {
     /// Reads the links of a model and of the models within it, in the order of their numbers.
     fn links(
         &self,
@@ -99,10 +100,15 @@ impl<'r> Reader<'r> {
         for item in part.items_of("link") {
             let name = self.names.place(&part.path, item.name);
             let pose = frames.pose(item.name).unwrap_or_default();
-            let held_weight = held_weight(item.element, item.name, findings);
+            let held_weight = held_weight(item.element, &name, findings);
+            let link = ModelLink {
+                element: item.element,
+                name: &name,
+                pose,
+                frames,
+            };
             // A static link has no inertia.
-            let mass =
-                (!is_static).then(|| inertial::mass_of(item.element, item.name, frames, findings));
+            let mass = (!is_static).then(|| mass_of(&link, findings));
             let mass = mass.flatten().unwrap_or_default();
             let number = model.links.len();
             model.links.push(Link {
@@ -172,7 +178,7 @@ impl<'r> Reader<'r> {
         }
     }
 
-    fn scope<'s>(&'s self, part: &'s Part, item: &Item, frames: &'s Frames) -> Scope<'s> {
+    fn scope<'s>(&'s self, part: &'s Part, item: &ModelItem, frames: &'s Frames) -> Scope<'s> {
         let frames = [self.world, frames];
         Scope::of_item(item, part, frames, self.names, &self.numbers)
     }

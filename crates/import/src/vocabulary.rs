@@ -5,7 +5,7 @@
 
 use std::ops::Range;
 
-use crate::extensions;
+use crate::changing;
 use crate::files::Files;
 use crate::findings::{EXPAND, Fault, Findings};
 use crate::limits::{MOST_LISTED, SHOWN};
@@ -174,8 +174,8 @@ fn unknown_element(
     findings: &mut Findings,
 ) {
     let near = scene::nearest(child.name(), entry.names(true));
-    if is_open && let Some(advice) = extensions::advice(child.name()) {
-        return extensions::refuse(child, &format!("`<{}>`", child.name()), advice, findings);
+    if is_open && let Some(advice) = changing::advice(child.name()) {
+        return changing::refuse(child, &format!("`<{}>`", child.name()), advice, findings);
     }
     if is_open && near.is_none() {
         return findings.leave_element(EXTENSIONS, child, &subject(around, child));
@@ -210,8 +210,8 @@ fn foreign(entry: &Entry, around: Element, child: Element, findings: &mut Findin
         let help = format!("describe it with {local}, or remove it");
         return findings.fault_with_help(Fault::Unsupported, source, span, message, "", help);
     }
-    if let Some(advice) = extensions::advice(child.name()) {
-        return extensions::refuse(child, &format!("`<{name}>`"), advice, findings);
+    if let Some(advice) = changing::advice(child.name()) {
+        return changing::refuse(child, &format!("`<{name}>`"), advice, findings);
     }
     let of = around.attribute("name").map(|name| name.text.trim());
     let subject = match of.filter(|of| !of.is_empty()) {

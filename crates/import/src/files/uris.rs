@@ -6,12 +6,12 @@ use scene::SourceText;
 
 /// Reason why a URI does not lead to a file, and advice.
 #[derive(Clone, Debug)]
-pub(crate) struct Unusable {
+pub(crate) struct IncludeProblem {
     pub(crate) reason: String,
     pub(crate) advice: Option<String>,
 }
 
-impl Unusable {
+impl IncludeProblem {
     pub(super) fn new(reason: impl Into<String>) -> Self {
         let reason = reason.into();
         Self {
@@ -30,7 +30,7 @@ impl Unusable {
 }
 
 /// The file to which a URI in the file `from` leads, relative to the folder.
-pub(super) fn file_of(from: &str, uri: &str, folder: &Folder) -> Result<String, Unusable> {
+pub(super) fn file_of(from: &str, uri: &str, folder: &Folder) -> Result<String, IncludeProblem> {
     let here = from.rsplit_once('/').map_or("", |(folder, _)| folder);
     if let Some(model) = uri.strip_prefix("model://") {
         return of_model(here, model, folder);
@@ -43,9 +43,12 @@ pub(super) fn file_of(from: &str, uri: &str, folder: &Folder) -> Result<String, 
         let advice = format!(
             "copy the model into a folder `{name}` next to the file, and write `model://{name}`"
         );
-        return Err(Unusable::with("only `model://` and paths are read", advice));
+        return Err(IncludeProblem::with(
+            "only `model://` and paths are read",
+            advice,
+        ));
     }
-    let path = joined(here, uri).ok_or_else(|| Unusable::new(OUTSIDE))?;
+    let path = joined(here, uri).ok_or_else(|| IncludeProblem::new(OUTSIDE))?;
     if folder.is_folder(&path) {
         return in_folder(&path, folder);
     }
@@ -53,11 +56,11 @@ pub(super) fn file_of(from: &str, uri: &str, folder: &Folder) -> Result<String, 
 }
 
 /// Searches `model://NAME` in the folder of the file and in the folders around it.
-fn of_model(here: &str, model: &str, folder: &Folder) -> Result<String, Unusable> {
+fn of_model(here: &str, model: &str, folder: &Folder) -> Result<String, IncludeProblem> {
     let name = model.split('/').next().unwrap_or_default();
     let mut around = Some(here);
     while let Some(at) = around {
-        let path = joined(at, model).ok_or_else(|| Unusable::new(OUTSIDE))?;
+        let path = joined(at, model).ok_or_else(|| IncludeProblem::new(OUTSIDE))?;
         if folder.is_folder(&path) {
             return in_folder(&path, folder);
         }
@@ -71,32 +74,32 @@ fn of_model(here: &str, model: &str, folder: &Folder) -> Result<String, Unusable
         return Err(folder
             .path_of(name)
             .err()
-            .map_or_else(|| Unusable::new(OUTSIDE), Unusable::new));
+            .map_or_else(|| IncludeProblem::new(OUTSIDE), IncludeProblem::new));
     }
     let advice = format!(
         "copy the folder `{name}` into the folder of the file, or remove the element if it does not \
          belong to the mechanism"
     );
     let reason = "the folder of the file does not contain it";
-    Err(Unusable::with(reason, advice))
+    Err(IncludeProblem::with(reason, advice))
 }
 
 /// The file of a model in its folder: the newest version in `model.config`, or `model.sdf`.
-fn in_folder(path: &str, folder: &Folder) -> Result<String, Unusable> {
+fn in_folder(path: &str, folder: &Folder) -> Result<String, IncludeProblem> {
     let config = format!("{path}/model.config");
     let name = match folder.path_of(&config) {
         Ok(_) => newest(&config, folder)?,
         Err(_) => "model.sdf".to_owned(),
     };
-    joined(path, &name).ok_or_else(|| Unusable::new(OUTSIDE))
+    joined(path, &name).ok_or_else(|| IncludeProblem::new(OUTSIDE))
 }
 
 /// The name in the element `<sdf version="…">` of a `model.config` with the largest version.
-fn newest(config: &str, folder: &Folder) -> Result<String, Unusable> {
-    let text = folder.read(config).map_err(Unusable::new)?;
+fn newest(config: &str, folder: &Folder) -> Result<String, IncludeProblem> {
+    let text = folder.read(config).map_err(IncludeProblem::new)?;
     let text = SourceText::new(config, &text);
     let Ok(document) = parse(&text) else {
-        return Err(Unusable::new(format!("`{config}` is not XML")));
+        return Err(IncludeProblem::new(format!("`{config}` is not XML")));
     };
     let root = Element::root(&document, &text);
     let files = root.children().filter(|child| child.name() == "sdf");
@@ -106,7 +109,7 @@ fn newest(config: &str, folder: &Folder) -> Result<String, Unusable> {
     });
     match newest.map(|file| file.text().text) {
         Some(name) if !name.is_empty() => Ok(name.to_owned()),
-        _ => Err(Unusable::new(format!(
+        _ => Err(IncludeProblem::new(format!(
             "`{config}` has no `<sdf>` with a file"
         ))),
     }

@@ -4,7 +4,7 @@ use std::collections::HashMap;
 
 use nalgebra::Isometry3;
 
-use super::parts::{self, Item, Merged, Part};
+use super::parts::{self, MergedModel, ModelItem, Part};
 use crate::findings::{Fault, Findings, NumberKind};
 use crate::mechanism::Link;
 use crate::pose::quaternion;
@@ -102,7 +102,7 @@ impl Frames {
         frames
     }
 
-    fn item(&mut self, item: &Item, part: &Part, findings: &mut Findings) {
+    fn item(&mut self, item: &ModelItem, part: &Part, findings: &mut Findings) {
         let (element, name) = (item.element, item.name);
         let word = |value: Option<Value>| value.map(|value| value.text.trim().to_owned());
         let (what, default) = match element.name() {
@@ -133,7 +133,7 @@ impl Frames {
     fn model_at(
         &mut self,
         name: &str,
-        place: &parts::Place,
+        place: &parts::Placement,
         what: What,
         part: &Part,
         findings: &mut Findings,
@@ -174,7 +174,7 @@ impl Frames {
     }
 
     /// Moves a merged model so that its placement frame is at the stated pose.
-    fn shift_merged(&mut self, merged: &Merged, findings: &mut Findings) {
+    fn shift_merged(&mut self, merged: &MergedModel, findings: &mut Findings) {
         let Some(frame) = &merged.place.frame else {
             return;
         };
@@ -299,11 +299,11 @@ impl Frames {
         Some(self.within(name)?.1)
     }
 
-    /// A pose in the axes of a link, from an element within the link.
+    /// A pose in the axes of a link with the given pose, from an element within the link.
     pub(super) fn pose_in_link(
         &self,
         element: Element,
-        link: &str,
+        link: &Isometry3<f64>,
         findings: &mut Findings,
     ) -> Option<Isometry3<f64>> {
         let own = pose_of(element, NumberKind::Other, findings)?;
@@ -314,7 +314,7 @@ impl Frames {
             no_frame(&base, findings);
             return None;
         };
-        Some(self.pose(link)?.inverse() * pose * own)
+        Some(link.inverse() * pose * own)
     }
 
     /// The pose of the frame of a joint.

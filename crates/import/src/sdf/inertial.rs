@@ -9,14 +9,20 @@ use crate::mass::{Mass, Solid};
 use crate::solids::tensor;
 use crate::xml::Element;
 
+/// A link of a model.
+pub(super) struct ModelLink<'l, 'a> {
+    pub(super) element: Element<'a>,
+    /// The name in the scene.
+    pub(super) name: &'l str,
+    /// The pose in ground axes.
+    pub(super) pose: Isometry3<f64>,
+    pub(super) frames: &'l Frames,
+}
+
 /// The mass of a link in the axes of the link.
-pub(super) fn mass_of(
-    link: Element,
-    name: &str,
-    frames: &Frames,
-    findings: &mut Findings,
-) -> Option<Mass> {
-    let Some(inertial) = link.child("inertial") else {
+pub(super) fn mass_of(link: &ModelLink, findings: &mut Findings) -> Option<Mass> {
+    let name = link.name;
+    let Some(inertial) = link.element.child("inertial") else {
         findings.remarks.push(format!(
             "Link `{name}` has no inertia: 1 kg and 1 kg·m² are assumed, as SDF requires."
         ));
@@ -31,7 +37,7 @@ pub(super) fn mass_of(
         None => false,
     };
     if is_auto {
-        of_shapes(link, inertial, name, frames, findings)
+        of_shapes(link, inertial, findings)
     } else {
         stated(inertial, name, findings)
     }
@@ -79,17 +85,13 @@ fn stated(element: Element, link: &str, findings: &mut Findings) -> Option<Mass>
 
 /// The mass of all collision shapes. A stated mass scales this mass; other stated numbers of
 /// `<inertial>` are not used.
-fn of_shapes(
-    link: Element,
-    inertial: Element,
-    name: &str,
-    frames: &Frames,
-    findings: &mut Findings,
-) -> Option<Mass> {
+fn of_shapes(link: &ModelLink, inertial: Element, findings: &mut Findings) -> Option<Mass> {
+    let name = link.name;
     let density = density_of(inertial, DENSITY, findings)?;
     let mut whole = Mass::default();
-    for collision in link.children().filter(|child| child.name() == "collision") {
-        whole = whole.plus(&of_collision(collision, density, name, frames, findings)?);
+    let children = link.element.children();
+    for collision in children.filter(|child| child.name() == "collision") {
+        whole = whole.plus(&of_collision(collision, density, link, findings)?);
     }
     if whole.mass == 0.0 {
         let message = format!(
@@ -124,13 +126,12 @@ fn density_of(element: Element, default: f64, findings: &mut Findings) -> Option
 fn of_collision(
     collision: Element,
     density: f64,
-    link: &str,
-    frames: &Frames,
+    link: &ModelLink,
     findings: &mut Findings,
 ) -> Option<Mass> {
     let density = density_of(collision, density, findings)?;
     let pose = match collision.child("pose") {
-        Some(pose) => frames.pose_in_link(pose, link, findings)?,
+        Some(pose) => link.frames.pose_in_link(pose, &link.pose, findings)?,
         None => Isometry3::identity(),
     };
     let Some(geometry) = collision.child("geometry") else {
@@ -139,7 +140,7 @@ fn of_collision(
     };
     let mut whole = Mass::default();
     for shape in geometry.children() {
-        let Some((solid, centre)) = solid(shape, link, findings)? else {
+        let Some((solid, centre)) = solid(shape, link.name, findings)? else {
             continue;
         };
         let mass = density * solid.volume();

@@ -19,17 +19,17 @@ pub(super) struct Part<'a> {
     pub(super) path: String,
     /// The number of surrounding models.
     depth: usize,
-    pub(super) place: Place<'a>,
+    pub(super) place: Placement<'a>,
     pub(super) is_static: bool,
     pub(super) is_world: bool,
     /// Links, joints, frames and plugins.
-    pub(super) items: Vec<Item<'a>>,
-    pub(super) merged: Vec<Merged<'a>>,
+    pub(super) items: Vec<ModelItem<'a>>,
+    pub(super) merged: Vec<MergedModel<'a>>,
     pub(super) parts: Vec<Part<'a>>,
 }
 
 /// An element of a model.
-pub(super) struct Item<'a> {
+pub(super) struct ModelItem<'a> {
     pub(super) element: Element<'a>,
     /// The name; empty for plugins.
     pub(super) name: &'a str,
@@ -40,16 +40,16 @@ pub(super) struct Item<'a> {
 }
 
 /// A model whose elements belong to the including model.
-pub(super) struct Merged<'a> {
+pub(super) struct MergedModel<'a> {
     /// The name of its frame.
     pub(super) name: String,
-    pub(super) place: Place<'a>,
+    pub(super) place: Placement<'a>,
     pub(super) canonical: Option<&'a str>,
 }
 
 /// The position of a model.
 #[derive(Clone)]
-pub(super) struct Place<'a> {
+pub(super) struct Placement<'a> {
     pub(super) pose: Option<Element<'a>>,
     /// The frame of the model that is at the pose.
     pub(super) frame: Option<Value<'a>>,
@@ -57,7 +57,7 @@ pub(super) struct Place<'a> {
     pub(super) within: Option<usize>,
 }
 
-impl<'a> Place<'a> {
+impl<'a> Placement<'a> {
     /// The position of a model. The elements of its `<include>` precede the elements of the model.
     fn of(model: Element<'a>, include: Option<Element<'a>>, within: Option<usize>) -> Self {
         let pose = include.and_then(|include| include.child("pose"));
@@ -82,7 +82,7 @@ impl<'a> Part<'a> {
         })
     }
 
-    pub(super) fn items_of(&self, kind: &str) -> impl Iterator<Item = &Item<'a>> {
+    pub(super) fn items_of(&self, kind: &str) -> impl Iterator<Item = &ModelItem<'a>> {
         self.items
             .iter()
             .filter(move |item| item.element.name() == kind)
@@ -116,7 +116,7 @@ pub(super) fn world<'a>(
         findings.of(Fault::Structure, *second, message);
         return None;
     }
-    let mut builder = Builder {
+    let mut builder = PartBuilder {
         files,
         findings,
         around: Vec::new(),
@@ -128,7 +128,7 @@ pub(super) fn world<'a>(
         name: String::new(),
         path: String::new(),
         depth: 0,
-        place: Place {
+        place: Placement {
             pose: None,
             frame: None,
             within: None,
@@ -152,7 +152,7 @@ pub(super) fn world<'a>(
     Some(world)
 }
 
-struct Builder<'a, 'f> {
+struct PartBuilder<'a, 'f> {
     files: &'a Files<'a>,
     findings: &'f mut Findings,
     /// The included files around the current element.
@@ -163,7 +163,7 @@ struct Builder<'a, 'f> {
     size: usize,
 }
 
-impl<'a> Builder<'a, '_> {
+impl<'a> PartBuilder<'a, '_> {
     /// Adds one model of the world. Other models are reported.
     fn choose(&mut self, elements: &[Element<'a>], chosen: &str, world: &mut Part<'a>) {
         let is_model = |element: &&Element| matches!(element.name(), "model" | "include");
@@ -227,7 +227,7 @@ impl<'a> Builder<'a, '_> {
         for element in elements {
             match element.name() {
                 "link" | "joint" | "frame" => self.item(*element, within, part),
-                "plugin" if !part.is_world => part.items.push(Item {
+                "plugin" if !part.is_world => part.items.push(ModelItem {
                     element: *element,
                     name: "",
                     within,
@@ -247,7 +247,7 @@ impl<'a> Builder<'a, '_> {
         let Some(name) = self.findings.needed(element, "name") else {
             return;
         };
-        part.items.push(Item {
+        part.items.push(ModelItem {
             element,
             name: name.text.trim(),
             within,
@@ -282,7 +282,7 @@ impl<'a> Builder<'a, '_> {
             name,
             path,
             depth: around.depth + 1,
-            place: Place::of(element, include, within),
+            place: Placement::of(element, include, within),
             is_static: false,
             is_world: false,
             items: Vec::new(),
@@ -332,9 +332,9 @@ impl<'a> Builder<'a, '_> {
         let canonical = model
             .attribute("canonical_link")
             .map(|value| value.text.trim());
-        part.merged.push(Merged {
+        part.merged.push(MergedModel {
             name: format!("_merged__{name}__model__"),
-            place: Place::of(model, Some(include), within),
+            place: Placement::of(model, Some(include), within),
             canonical: canonical.filter(|name| !name.is_empty()),
         });
         let first = part.items.len();

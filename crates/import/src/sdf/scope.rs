@@ -5,7 +5,7 @@ use std::collections::{HashMap, HashSet};
 use nalgebra::Isometry3;
 
 use super::frames::Frames;
-use super::parts::{Item, Part};
+use super::parts::{ModelItem, Part};
 use crate::files::version_of;
 use crate::findings::{Fault, Findings};
 use crate::xml::Value;
@@ -48,7 +48,7 @@ impl<'s> Scope<'s> {
 
     /// The scope for an element of a model.
     pub(super) fn of_item(
-        item: &Item,
+        item: &ModelItem,
         part: &'s Part,
         [world, frames]: [&'s Frames; 2],
         names: &'s SceneNames,
