@@ -425,7 +425,7 @@ impl Scene {
             let drives = Drives::ALL
                 .into_iter()
                 .find(|known| known.name() == drives)
-                .ok_or_else(|| unknown("drives", &drives, &Drives::ALL.map(Drives::name)))?;
+                .ok_or_else(|| unknown("kind of drive", &drives, &Drives::ALL.map(Drives::name)))?;
             let folder = match &text {
                 Some(_) => Folder::None,
                 None => Folder::of(&path),

@@ -113,36 +113,52 @@ pub(crate) fn plugin(
         refuse(element, &format!("the plugin `{shown}`"), advice, findings);
     } else {
         findings.leave_element(kind, element, &subject);
-        if names.iter().any(|name| is_controller(name)) {
-            controller(element, scope, model, findings);
+        let letters = names.concat().to_lowercase();
+        let letters: String = letters
+            .chars()
+            .filter(char::is_ascii_alphanumeric)
+            .collect();
+        if CONTROLLERS.iter().any(|known| letters.contains(known)) {
+            controller(element, &letters, scope, model, findings);
         }
     }
 }
 
-/// Whether a plugin of Gazebo with this name acts on joints.
-fn is_controller(name: &str) -> bool {
-    let letters: String = name.chars().filter(char::is_ascii_alphanumeric).collect();
-    let letters = letters.to_lowercase();
-    CONTROLLERS.iter().any(|known| letters.contains(known))
-}
-
-const CONTROLLERS: [&str; 4] = [
+/// Plugins of Gazebo that act on joints, as letters of their names.
+const CONTROLLERS: [&str; 7] = [
     "jointcontroller",
     "jointpositioncontroller",
-    "jointtrajectorycontroller",
+    TRAJECTORY,
     "applyjointforce",
+    "diffdrive",
+    "ackermannsteering",
+    "mecanumdrive",
 ];
 
+/// A controller that acts on all joints of its model if it names no joints.
+const TRAJECTORY: &str = "jointtrajectorycontroller";
+
 /// Records the joints of a controller as actuated.
-fn controller(element: Element, scope: &Scope, model: &mut Model, findings: &Findings) {
-    for child in element
-        .children()
-        .filter(|child| child.name() == "joint_name")
-    {
-        if let Some(number) = scope.number_of(child.text().text) {
-            let is_plain = false;
-            model.actuate("", (number, 0), is_plain, findings);
-        }
+fn controller(
+    element: Element,
+    letters: &str,
+    scope: &Scope,
+    model: &mut Model,
+    findings: &Findings,
+) {
+    let is_joint =
+        |child: &Element| child.name().ends_with("joint") || child.name() == "joint_name";
+    let named = element.children().filter(is_joint);
+    let mut joints: Vec<usize> = named
+        .filter_map(|child| scope.number_of(child.text().text))
+        .collect();
+    if joints.is_empty() && letters.contains(TRAJECTORY) {
+        joints = scope.joints();
+        joints.retain(|&joint| model.joints[joint].kind.measures().len() == 1);
+    }
+    let is_plain = false;
+    for joint in joints {
+        model.actuate("", (joint, 0), is_plain, findings);
     }
 }
 

@@ -46,6 +46,10 @@ pub(crate) fn read<'a>(
         None => assume_gravity(&mut model, findings),
     }
     let frames = Frames::of_world(&world, findings);
+    // If a name is used twice, the frames of one model are missing.
+    if findings.has_problems() {
+        return model;
+    }
     let names = SceneNames::of(&world);
     let mut reader = ModelReader {
         world: &frames,

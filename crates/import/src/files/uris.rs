@@ -36,10 +36,7 @@ pub(super) fn file_of(from: &str, uri: &str, folder: &Folder) -> Result<String, 
         return of_model(here, model, folder);
     }
     if uri.contains("://") {
-        let name = uri
-            .rsplit('/')
-            .find(|part| !part.is_empty())
-            .unwrap_or("NAME");
+        let name = model_name(uri);
         let advice = format!(
             "copy the model into a folder `{name}` next to the file, and write `model://{name}`"
         );
@@ -53,6 +50,14 @@ pub(super) fn file_of(from: &str, uri: &str, folder: &Folder) -> Result<String, 
         return in_folder(&path, folder);
     }
     Ok(path)
+}
+
+/// The name of a model on the network: `…/models/NAME` on Gazebo Fuel, otherwise the last part.
+fn model_name(uri: &str) -> &str {
+    let last = || uri.trim_end_matches('/').rsplit('/').next();
+    let (_, fuel) = uri.split_once("/models/").unzip();
+    let fuel = fuel.and_then(|fuel| fuel.split('/').next());
+    fuel.or_else(last).unwrap_or_default()
 }
 
 /// Searches `model://NAME` in the folder of the file and in the folders around it.

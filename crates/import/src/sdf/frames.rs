@@ -33,8 +33,10 @@ enum What {
 
 /// The key for the frame of a joint, because a joint may have the name of a link.
 fn of_joint(name: &str) -> String {
-    format!("{name}\0joint")
+    format!("{name}{JOINT}")
 }
+
+const JOINT: &str = "\0joint";
 
 /// All named poses of a model, at the described pose.
 #[derive(Default)]
@@ -286,6 +288,11 @@ impl Frames {
     pub(super) fn names(&self) -> impl Iterator<Item = &str> {
         let names = self.places.keys().map(String::as_str);
         names.filter(|name| !name.contains('\0'))
+    }
+
+    /// The names of joints.
+    pub(super) fn joints(&self) -> impl Iterator<Item = &str> {
+        self.places.keys().filter_map(|key| key.strip_suffix(JOINT))
     }
 
     /// The pose of a link, joint, frame or model.

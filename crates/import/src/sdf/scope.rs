@@ -128,6 +128,14 @@ impl<'s> Scope<'s> {
         self.numbers.get(&self.joint(name.trim())).copied()
     }
 
+    /// The numbers of the joints of this model.
+    pub(crate) fn joints(&self) -> Vec<usize> {
+        let names = self.frames.joints();
+        let mut joints: Vec<usize> = names.filter_map(|name| self.number_of(name)).collect();
+        joints.sort_unstable();
+        joints
+    }
+
     /// The name in the scene of a joint of this model, or of a model within it.
     pub(crate) fn joint(&self, name: &str) -> String {
         let Some(names) = self.names else {

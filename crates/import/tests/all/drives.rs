@@ -256,10 +256,21 @@ fn joints_without_actuators_have_drives() {
     };
     assert_eq!(names(""), ["name a drive", "name c drive"]);
     // Controllers of Gazebo name their joints.
-    let plugin = "<plugin name='gz::sim::systems::JointPositionController' \
-                  filename='gz-sim-joint-position-controller-system'><joint_name>b</joint_name>\
-                  </plugin>";
-    assert_eq!(names(plugin), ["name b drive"]);
-    assert_eq!(left(&with(&model(plugin), Drives::Torque))[0].0, CONTENT);
-    assert_eq!(left(&with(&model(plugin), Drives::None))[0].0, "plugins");
+    let plugin = |name: &str, joints: &str| {
+        format!(
+            "<plugin name='gz::sim::systems::{name}' filename='gz-sim-system'>{joints}</plugin>"
+        )
+    };
+    let position = plugin("JointPositionController", "<joint_name>b</joint_name>");
+    assert_eq!(names(&position), ["name b drive"]);
+    assert_eq!(left(&with(&model(&position), Drives::Torque))[0].0, CONTENT);
+    assert_eq!(left(&with(&model(&position), Drives::None))[0].0, "plugins");
+    let wheels = "<right_joint>c</right_joint><left_joint>a</left_joint><topic>b</topic>";
+    assert_eq!(
+        names(&plugin("DiffDrive", wheels)),
+        ["name c drive", "name a drive"]
+    );
+    // Without names, a trajectory has all joints of the model.
+    let all = ["name a drive", "name b drive", "name c drive"];
+    assert_eq!(names(&plugin("JointTrajectoryController", "")), all);
 }

@@ -146,6 +146,16 @@ fn only_the_chosen_model_is_included() {
     assert_eq!(import_text(&text, &choosing("a")).counts, [1, 1]);
 }
 
+/// The first of two models with one name contains a model that the second does not contain.
+#[test]
+fn a_name_of_two_models_is_refused() {
+    let inner = format!("<model name='b'><link name='c'>{MASS}</link></model>");
+    let first_model = pendulum("a", 0.0, &inner);
+    let text = world(&(first_model + &pendulum("a", 1.0, "") + &pendulum("d", 2.0, "")));
+    let (code, line, message) = first(&refused(&text));
+    assert_eq!((code.as_str(), line), ("P0607", 3), "{message}");
+}
+
 #[test]
 fn static_models_belong_to_the_ground() {
     let wall = format!(
@@ -309,7 +319,7 @@ fn includes_without_a_file_are_refused_by_name() {
             "copy the folder `claw`",
         ),
         (
-            "https://fuel.org/1.0/models/claw",
+            "https://fuel.org/1.0/models/claw/2",
             "P0611",
             "only `model://`",
             "write `model://claw`",
