@@ -33,11 +33,11 @@ use crate::tree::root;
 // feature may increase a size limit, in a separate commit.
 
 /// Largest number of lines of code of all groups except tests and developers' tools.
-const TOTAL_MOST: usize = 157_500;
+const TOTAL_MOST: usize = 158_900;
 /// Largest number of lines of code of the product.
-const PRODUCT_MOST: usize = 120_800;
+const PRODUCT_MOST: usize = 122_200;
 /// Largest number of tokens of the product; with this limit, longer lines do not help.
-const TOKENS_MOST: usize = 1_149_500;
+const TOKENS_MOST: usize = 1_162_000;
 /// Largest number of lines of code of `dynamics`.
 const DYNAMICS_MOST: usize = 11_490;
 /// Largest number of stateful types above the bounds.
