@@ -147,7 +147,7 @@ fn a_motor_runs_up_exponentially() {
             close(row.v[2], omega, 40.0, "angular velocity");
             mechanism.pose(row.t, &row.q, &mut s);
             mechanism.twist(&row.v, &mut s);
-            let laws: Vec<f64> = mechanism.applied_forces().of_laws(&s).collect();
+            let laws: Vec<f64> = mechanism.applied_forces().of_laws(&mut s).collect();
             close(laws[0], 20.0 - 0.5 * omega, 20.0, "torque");
         }
         // Radau IIA integrates the work less accurately than the motion.

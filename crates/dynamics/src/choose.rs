@@ -55,7 +55,7 @@ pub(crate) fn method(
     if options.stabilisation != Stabilisation::Projection {
         return explicit("implicit methods need projection");
     }
-    let steps = fastest_rate(prepared)? * options.t_end / STABLE;
+    let steps = fastest_rate(prepared)? * (options.t_end - prepared.start_time()) / STABLE;
     let (method, is) = if steps > STIFF {
         (Method::Radau5, "more")
     } else {
@@ -81,7 +81,7 @@ fn fastest_rate(prepared: &PreparedMechanism) -> Result<f64, MotionFault> {
     let mut motion = KeptRowMotion::new(prepared)?;
     let mut reduced = ReducedJacobian::new(&motion);
     let y = [prepared.q.as_slice(), &prepared.v].concat();
-    reduced.linearise(&mut motion, 0.0, &y)?;
+    reduced.linearise(&mut motion, prepared.start_time(), &y)?;
     Ok(spectral_radius(reduced.jacobian()))
 }
 

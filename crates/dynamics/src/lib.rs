@@ -46,7 +46,7 @@ pub use options::{FORMULATION, INDEPENDENT_ROWS, Method, MotionOptions, RowChoic
 pub use plan::{OutputRequest, Plan};
 pub use prepare::{PreparedMechanism, prepare, prepare_after, start_velocity, unmovable};
 pub use run::{
-    ChosenReactions, ComponentSummary, DroppedRows, Failure, ReducedJacobian, Sample, Stop,
-    Summary, simulate, simulate_until,
+    ChosenReactions, ComponentSummary, DroppedRows, Failure, ReducedJacobian, Sample, Simulator,
+    Stop, Summary, simulate, simulate_until,
 };
 pub use solve::Misfit;

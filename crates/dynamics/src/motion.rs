@@ -63,13 +63,13 @@ impl<'m> KeptRowMotion<'m> {
     ) -> Result<Self, MotionFault> {
         let mut motion = Self::interpreted(prepared, options)?;
         if options.method.needs_independent_coordinates() {
-            motion.use_independent_coordinates(0.0, &prepared.q)?;
+            motion.use_independent_coordinates(prepared.start_time(), &prepared.q)?;
         }
         if let Ok(code) = prepared.code_for(options) {
             motion.code = Some(CodeSwitch::new(
                 evaluator.unwrap_or(&**code),
                 &mut motion.equations,
-                (0.0, &prepared.q),
+                (prepared.start_time(), &prepared.q),
             ));
         }
         Ok(motion)
@@ -83,14 +83,15 @@ impl<'m> KeptRowMotion<'m> {
         let of_c = prepared.decision.kept.len();
         let velocity = KeptRows::new(&at, &prepared.decision, of_c)?;
         let position = KeptRows::new(&at, &prepared.position_decision, of_c)?;
-        let horizon = if options.t_end > 0.0 {
-            options.t_end
+        let horizon = options.t_end - prepared.start_time();
+        let horizon = if horizon > 0.0 {
+            horizon
         } else {
             f64::INFINITY
         };
         let mut equations = KeptEquations::new(at, velocity, position);
         if prepared.may_miss {
-            equations.at.pose(0.0, &prepared.q);
+            equations.at.pose(prepared.start_time(), &prepared.q);
             equations.misfits = Some(Box::new(Misfits::new(&equations.at)));
         }
         Ok(Self {

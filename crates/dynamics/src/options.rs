@@ -101,7 +101,7 @@ pub enum RowChoice {
 /// Options of a run.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MotionOptions {
-    /// End time (s); the start time is 0.
+    /// End time (s), not before the start of the [`crate::PreparedMechanism`].
     pub t_end: f64,
     /// Time between output rows (s).
     pub output_step: f64,

@@ -80,14 +80,14 @@ impl Default for OutputRequest {
 /// Kinds of output rows.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Rows {
-    /// Rows at time 0, at every output step, and at the end.
+    /// Rows at the start, at every output step, and at the end.
     #[default]
     Every,
     /// Rows at the same times, but with the states that are interpolated within steps. These states
     /// violate the constraints by about the tolerance of the run. This kind of rows is for callers
     /// that project the states anyway.
     Interpolated,
-    /// Rows at time 0 and at the end.
+    /// Rows at the start and at the end.
     Ends,
 }
 
@@ -163,6 +163,13 @@ impl<'a> Plan<'a> {
         wanted: &OutputRequest,
     ) -> Result<Self, MotionError> {
         options.check()?;
+        if options.t_end < prepared.start_time() {
+            return Err(MotionError::Option {
+                name: "t_end",
+                value: options.t_end,
+                expected: "a time not before the start",
+            });
+        }
         let groups = wanted_groups(prepared, wanted)?;
         let code = code(prepared, options)?;
         let (apart, parts) = if code.value {
@@ -183,7 +190,7 @@ impl<'a> Plan<'a> {
             options: options.clone(),
             apart,
             code,
-            rows: rows(options, wanted.rows),
+            rows: rows(options, prepared.start_time(), wanted.rows),
             accelerations: accelerations(wanted.accelerations),
             verdicts: wanted.verdicts,
             groups: match wanted.reactions {
@@ -277,8 +284,11 @@ fn code(
     Ok(Decision::new(true, format!("`{}`", code.name), reason))
 }
 
-fn rows(options: &MotionOptions, rows: Rows) -> Decision<Rows> {
-    let every = (options.t_end / options.output_step).ceil().max(0.0) as u64 + 1;
+fn rows(options: &MotionOptions, start: f64, rows: Rows) -> Decision<Rows> {
+    let every = ((options.t_end - start) / options.output_step)
+        .ceil()
+        .max(0.0) as u64
+        + 1;
     let wanted = format!("requested every {} s", options.output_step);
     match rows {
         Rows::Every => Decision::new(rows, format!("{every}"), wanted),

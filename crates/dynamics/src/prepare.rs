@@ -4,12 +4,14 @@
 
 use std::sync::Arc;
 
-use model::start::{Metric, StartVelocity, assemble, consistent_velocity, nearest_configuration};
+use model::start::{
+    CorrectionLimit, Metric, StartVelocity, assemble, consistent_velocity, nearest_configuration,
+};
 use model::{Assembly, Mechanism, Scratch, StartError, StartOptions, System};
 use rank::{KeptRowsError, RankStatus};
 use solvability::{
-    ConstraintLevel, Contradiction, RowDecision, Rows, contradicting_drives, decide_rows_dropping,
-    may_miss, rows as rows_of, rows_of_rank,
+    ConstraintLevel, Contradiction, RowDecision, Rows, State, check_state, contradicting_drives,
+    decide_rows_dropping, may_miss, rows as rows_of, rows_of_rank,
 };
 
 use crate::code::SharedCode;
@@ -25,9 +27,9 @@ use crate::solve::{self, Misfit};
 pub struct PreparedMechanism {
     /// The mechanism, with initial values taken from the start.
     pub mechanism: Mechanism,
-    /// Coordinates at t = 0.
+    /// Coordinates at the start.
     pub q: Vec<f64>,
-    /// Velocities at t = 0.
+    /// Velocities at the start.
     pub v: Vec<f64>,
     /// The requested choice of independent rows.
     pub choice: RowChoice,
@@ -55,6 +57,12 @@ pub struct PreparedMechanism {
 }
 
 impl PreparedMechanism {
+    /// Returns the time of the start (s).
+    #[must_use]
+    pub fn start_time(&self) -> f64 {
+        self.mechanism.layout().start_time
+    }
+
     /// Returns an estimated upper bound (bytes) on the memory of a run, without the mechanism
     /// itself. The memory consists of solvers, stages and output rows. The estimate uses only
     /// sparsity patterns.
@@ -73,6 +81,58 @@ impl PreparedMechanism {
     /// Returns whether the size is far from a metre, see [`solve::is_far`].
     pub(crate) fn is_far(&self) -> bool {
         solve::is_far(self.assembly.size)
+    }
+
+    /// Returns the same mechanism with another start: a time (s), coordinates (n_q) and velocities
+    /// (n_v). Initial values of joints and drives do not change, so prescribed motions continue. The
+    /// state is corrected like the start of a scene. At a break time, at which prescribed rates may
+    /// jump, velocities before the jump become the velocities after the jump.
+    ///
+    /// ```
+    /// use joints::{Revolute, RevoluteAngleDrive};
+    /// use model::{Body, BodyRef, Description, Function, Mechanism, StartOptions};
+    /// use pfaff_dynamics::{RowChoice, prepare};
+    /// // A crank that turns with 2 rad/s, at 0.5 s.
+    /// let mut d = Description::new("crank");
+    /// let crank = d.body(Body::new("crank", 1.0, 0.5));
+    /// let (bodies, o) = ([BodyRef::Ground, crank], [0.0, 0.0]);
+    /// d.joint("pin", &bodies, Revolute { s_i: o, s_j: o });
+    /// d.drive("motor", &bodies, RevoluteAngleDrive::new(o, o), Function::constant_rate(2.0).unwrap());
+    /// let mechanism = Mechanism::build(&d).unwrap();
+    /// let start = prepare(mechanism, &StartOptions::default(), &RowChoice::Automatic)?;
+    /// let later = start.at(0.5, &[0.0, 0.0, 1.0], &[0.0, 0.0, 2.0])?;
+    /// assert_eq!((later.start_time(), later.q[2]), (0.5, 1.0));
+    /// assert!(start.at(0.5, &[0.0, 0.0, 1.2], &[0.0, 0.0, 2.0]).is_err());
+    /// # Ok::<(), pfaff_dynamics::MotionError>(())
+    /// ```
+    ///
+    /// # Errors
+    /// Returns the same errors as [`prepare`], and an error if the state has the wrong length or is
+    /// not finite.
+    pub fn at(&self, t: f64, q: &[f64], v: &[f64]) -> Result<Self, MotionError> {
+        check_state(&self.mechanism, t, q, v)?;
+        let start = StartOptions {
+            keep: Vec::new(),
+            state: Some(State {
+                q: q.to_vec(),
+                v: v.to_vec(),
+            }),
+            ..self.start.clone()
+        };
+        let prepared = |start: &StartOptions| {
+            let mechanism = self.mechanism.clone().starting_at(t);
+            prepare_after(mechanism, start, &self.choice, Some(self))
+        };
+        let is_break = self.mechanism.layout().break_times.contains(&t);
+        match prepared(&start) {
+            Err(MotionError::Start(StartError::Velocities(_))) if is_break => {
+                prepared(&StartOptions {
+                    correction: CorrectionLimit::Any,
+                    ..start
+                })
+            }
+            other => other,
+        }
     }
 
     /// Returns the ratio of the largest to the smallest mass, see [`solve::mass_spread`].
@@ -140,7 +200,7 @@ impl PreparedMechanism {
         }
         let layout = self.mechanism.layout();
         let mut s = self.mechanism.scratch();
-        self.mechanism.pose(0.0, &self.q, &mut s);
+        self.mechanism.pose(self.start_time(), &self.q, &mut s);
         self.mechanism.phi(&mut s);
         self.mechanism.c(&mut s);
         let others = |kept: &[usize], n: usize| -> Vec<usize> {
@@ -226,7 +286,7 @@ pub fn prepare_after(
     if let Some(found) = known.and_then(|other| other.decided.clone()) {
         return on_rows(mechanism, assembly, found, start, rows);
     }
-    let found = rows_of(&mechanism, 0.0, &assembly.q)?;
+    let found = rows_of(&mechanism, mechanism.layout().start_time, &assembly.q)?;
     if let Some(error) = unmovable(&mechanism, &found, &assembly.q) {
         // A cause that prevents any motion is reported first, because it also causes an error of
         // the analysis.
@@ -251,7 +311,7 @@ fn on_rows(
     rows: &RowChoice,
 ) -> Result<PreparedMechanism, MotionError> {
     let mut s = mechanism.scratch();
-    mechanism.pose(0.0, &assembly.q, &mut s);
+    mechanism.pose(mechanism.layout().start_time, &assembly.q, &mut s);
     mechanism.phi(&mut s);
     mechanism.c(&mut s);
     let labels = &mechanism.layout().labels;
@@ -269,7 +329,13 @@ fn on_rows(
     };
     let q = if may_miss {
         let kept = &position_decision.kept;
-        nearest_configuration(&mechanism, 0.0, kept, &assembly.q, Metric::Start(start))?
+        nearest_configuration(
+            &mechanism,
+            mechanism.layout().start_time,
+            kept,
+            &assembly.q,
+            Metric::Start(start),
+        )?
     } else {
         assembly.q.clone()
     };
@@ -319,7 +385,7 @@ fn drop_within_tolerance(
 /// `f64`.
 #[must_use]
 pub fn unmovable(mechanism: &Mechanism, found: &Rows, q: &[f64]) -> Option<MotionError> {
-    if let Some(nearly) = found.inseparable(mechanism, 0.0, q) {
+    if let Some(nearly) = found.inseparable(mechanism, mechanism.layout().start_time, q) {
         let largest = nearly
             .direction
             .iter()
@@ -357,7 +423,10 @@ pub fn start_velocity(
     q: &[f64],
     kept: &[usize],
 ) -> Result<(StartVelocity, Option<Contradiction>), MotionError> {
-    let given = mechanism.frames().given_velocities(q);
+    let given = match &start.state {
+        Some(state) => state.v.iter().copied().map(Some).collect(),
+        None => mechanism.frames().given_velocities(q),
+    };
     let found = consistent_velocity(mechanism, start, q, &given, kept);
     if !rows.all.is_decided() || !rows.holonomic.is_decided() {
         return Ok((found?, None));
@@ -371,12 +440,13 @@ pub fn start_velocity(
             &free.v
         }
     };
-    let mut all = rows.contradictions(mechanism, 0.0, q, v)?;
+    let t = mechanism.layout().start_time;
+    let mut all = rows.contradictions(mechanism, t, q, v)?;
     if all.is_empty() && mechanism.has_tolerances() && rows.all.redundancy > 0 {
         // The violation of a joint that a drive moves may result from data within the tolerance. As
         // in a check of the drives, the prescribed motion of a drive is therefore compared with the
         // motion that the joints allow.
-        all = contradicting_drives(mechanism, 0.0, q)?;
+        all = contradicting_drives(mechanism, t, q)?;
     }
     let is_late = |c: &Contradiction| c.level == ConstraintLevel::Acceleration;
     let (late, now): (Vec<_>, Vec<_>) = all.into_iter().partition(is_late);

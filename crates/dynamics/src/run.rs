@@ -17,6 +17,7 @@ mod record;
 mod reduced;
 mod sample;
 mod several;
+mod simulator;
 mod span;
 mod summary;
 #[cfg(test)]
@@ -35,10 +36,11 @@ pub use caller::{Stop, Watch};
 pub use reduced::ReducedJacobian;
 pub(crate) use reduced::derivatives;
 pub use sample::{ChosenReactions, Sample};
+pub use simulator::Simulator;
 pub use summary::{ComponentSummary, DroppedRows, Failure, Summary};
 
-/// Runs a prepared mechanism from t = 0. The function `row` is called for the rows at 0, at every
-/// output step and at the end. The plan requests all output.
+/// Runs a prepared mechanism from its start. The function `row` is called for the rows at the start,
+/// at every output step and at the end. The plan requests all output.
 ///
 /// ```
 /// use std::ops::ControlFlow;
@@ -91,7 +93,7 @@ pub fn simulate_until(
 }
 
 impl Plan<'_> {
-    /// Runs the plan from t = 0 and passes its rows to `row`.
+    /// Runs the plan from the start and passes its rows to `row`.
     ///
     /// # Errors
     /// Returns a failure with the summary of the completed part. Rows passed before remain valid.

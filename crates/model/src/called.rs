@@ -1,5 +1,5 @@
-//! Forces that are computed by a callback function of the caller: force laws of drives, and
-//! wrenches on bodies. The callback returns only values. Therefore methods that need derivatives do
+//! Forces that are computed by a callback function of the caller: force laws of drives, wrenches on
+//! bodies, and controllers that command several drives and bodies. The callback returns only values. Therefore methods that need derivatives do
 //! not support these forces.
 //!
 //! The derivatives of a mechanism with such a force cannot be computed. Each method that needs
@@ -19,6 +19,7 @@ use std::fmt;
 use std::sync::Arc;
 
 use crate::law::UndefinedValue;
+use crate::space::SpaceKind;
 
 /// Reason why a callback has no value. The message becomes the error of the simulation.
 pub type CallError = Box<dyn Error + Send + Sync>;
@@ -144,4 +145,124 @@ impl CalledWrench {
             )))
         }
     }
+}
+
+/// The state of a mechanism for its controller.
+#[derive(Clone, Copy, Debug)]
+#[non_exhaustive]
+pub struct ControlState<'s> {
+    /// Time (s).
+    pub time: f64,
+    /// Coordinates q, n_q values.
+    pub q: &'s [f64],
+    /// Velocities v, n_v values.
+    pub v: &'s [f64],
+    /// Joint coordinates of the drives with force laws and of the springs on joint coordinates, in
+    /// the order of the forces.
+    pub drives: &'s [DriveState],
+    /// The centres of mass of the bodies.
+    pub bodies: &'s [BodyState],
+}
+
+/// The values of a controller.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Efforts {
+    /// Force (N) or torque (N·m) of each commanded drive along its joint coordinate.
+    pub drives: Vec<f64>,
+    /// Force and torque on each loaded body.
+    pub bodies: Vec<Wrench>,
+}
+
+/// A callback that commands drives and loads bodies; see
+/// [`control`](crate::MechanismDescription::control).
+#[derive(Clone)]
+pub struct Controller {
+    function: Arc<ControlFunction>,
+    /// Name of the force that reads each value. The forces of drives come first.
+    pub(crate) values: Vec<String>,
+    /// Number of commanded drives, and number of loaded bodies.
+    sizes: [usize; 2],
+}
+
+type ControlFunction =
+    dyn Fn(&ControlState<'_>, &mut Efforts) -> Result<(), CallError> + Send + Sync;
+
+impl Controller {
+    pub(crate) fn new(
+        values: Vec<String>,
+        sizes: [usize; 2],
+        function: impl Fn(&ControlState<'_>, &mut Efforts) -> Result<(), CallError>
+        + Send
+        + Sync
+        + 'static,
+    ) -> Self {
+        let function = Arc::new(function);
+        Self {
+            function,
+            values,
+            sizes,
+        }
+    }
+
+    /// Returns storage for the values.
+    pub(crate) fn efforts(&self) -> Efforts {
+        let [drives, bodies] = self.sizes;
+        Efforts {
+            drives: vec![f64::NAN; drives],
+            bodies: vec![Wrench::default(); bodies],
+        }
+    }
+
+    /// Calls the function, and checks that it returned values for all drives.
+    pub(crate) fn call(
+        &self,
+        state: &ControlState<'_>,
+        efforts: &mut Efforts,
+    ) -> Result<(), UndefinedValue> {
+        if !state.q.iter().chain(state.v).all(|x| x.is_finite()) {
+            return Err(UndefinedValue::Input);
+        }
+        efforts.drives.fill(f64::NAN);
+        efforts.bodies.fill(Wrench::default());
+        (self.function)(state, efforts).map_err(|why| failed(&why))?;
+        let loads = efforts.bodies.iter();
+        let loads = loads.flat_map(|load| load.force.iter().chain(&load.torque));
+        match loads.chain(&efforts.drives).find(|x| !x.is_finite()) {
+            Some(other) => Err(UndefinedValue::Returned(other.to_string())),
+            None => Ok(()),
+        }
+    }
+}
+
+impl Efforts {
+    /// Returns all values in the order of [`Controller::values`].
+    pub(crate) fn values(&self, space: SpaceKind) -> impl Iterator<Item = f64> {
+        let loads = self.bodies.iter().flat_map(move |load| {
+            let force = &load.force[..space.n_translations()];
+            let torque = &load.torque[3 - space.n_rotations()..];
+            force.iter().chain(torque).copied()
+        });
+        self.drives.iter().copied().chain(loads)
+    }
+}
+
+impl fmt::Debug for Controller {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Controller")
+            .field("values", &self.values)
+            .finish_non_exhaustive()
+    }
+}
+
+/// The values of all controllers at one state, with storage for the state.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Commands {
+    /// Coordinates and velocities; empty without controllers.
+    pub(crate) state: Vec<f64>,
+    pub(crate) drives: Vec<DriveState>,
+    pub(crate) bodies: Vec<BodyState>,
+    /// The values of each controller.
+    pub(crate) efforts: Vec<Efforts>,
+    /// Whether the values belong to the current poses and velocities.
+    pub(crate) are_known: bool,
 }

@@ -5,7 +5,9 @@ use joints::spec::{ConstraintSpec, Unit};
 use joints::{Constraint, Plane, Space3};
 
 pub use crate::body::{Body, BodyRecord, BodyRef, DescribedBody, FramePose, SpatialBody};
-use crate::called::{BodyState, CallError, CalledWrench, Wrench};
+use crate::called::{
+    BodyState, CallError, CalledWrench, ControlState, Controller, Efforts, Wrench,
+};
 use crate::contact::ContactLimits;
 use crate::element::{BodySpace, ConstraintKernels, ForceKernels};
 use crate::function::Function;
@@ -54,6 +56,10 @@ pub struct MechanismDescription<S: BodySpace> {
     pub tolerance: Tolerance,
     /// Markers and measures.
     pub observed: Observables,
+    /// Time of the start (s). The described configuration belongs to t = 0.
+    pub start_time: f64,
+    /// Controllers, added by [`MechanismDescription::control`].
+    pub controllers: Vec<Controller>,
 }
 
 /// A mechanism in the plane before it is assembled; see [`MechanismDescription`].
@@ -91,6 +97,8 @@ impl<S: BodySpace> Default for MechanismDescription<S> {
             forces: Vec::new(),
             tolerance: Tolerance::default(),
             observed: Observables::default(),
+            start_time: 0.0,
+            controllers: Vec::new(),
         }
     }
 }
@@ -226,6 +234,79 @@ impl<S: BodySpace> MechanismDescription<S> {
             element: S::wrench(CalledWrench::new(function)),
             functions: vec![Function::time()],
         });
+    }
+
+    /// Adds a controller: a callback that commands drives with force laws and loads bodies. The
+    /// callback receives the state of the whole mechanism and is called once for each evaluation of
+    /// the applied forces. The conditions of [`Law::called`] apply. Its values replace the force laws
+    /// of the drives, and act as forces and torques at the centres of mass of the bodies.
+    ///
+    /// ```
+    /// use joints::{Revolute, RevoluteAngleDrive};
+    /// use pfaff_model::{Body, BodyRef, Description, Law, Mechanism, System, Wrench};
+    /// // A motor that turns a wheel toward the angle of another wheel.
+    /// let mut d = Description::new("wheels");
+    /// let [a, b] = ["a", "b"].map(|name| d.body(Body::new(name, 1.0, 0.5)));
+    /// for (body, name) in [(a, "pin a"), (b, "pin b")] {
+    ///     d.joint(name, &[BodyRef::Ground, body], Revolute::new([0.0; 2], [0.0; 2]));
+    /// }
+    /// let angle = RevoluteAngleDrive::new([0.0; 2], [0.0; 2]);
+    /// d.drive_by_law("motor", &[BodyRef::Ground, b], angle, Law::called(|_| Ok(0.0)))?;
+    /// d.control(&["motor"], &[a], |state, efforts| {
+    ///     efforts.drives[0] = 3.0 * (state.bodies[0].angle - state.bodies[1].angle);
+    ///     efforts.bodies[0] = Wrench { torque: [0.0, 0.0, 0.5], ..Wrench::default() };
+    ///     Ok(())
+    /// })?;
+    /// let mechanism = Mechanism::build(&d).unwrap();
+    /// let mut s = mechanism.scratch();
+    /// mechanism.pose(0.0, &[0.0, 0.0, 2.0, 0.0, 0.0, 1.0], &mut s);
+    /// mechanism.twist(&[0.0; 6], &mut s);
+    /// mechanism.force(&mut s);
+    /// assert_eq!(s.force, [0.0, 0.0, 0.5, 0.0, 0.0, 3.0]);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    ///
+    /// # Errors
+    /// Returns an error if one of the drives has no force law.
+    pub fn control(
+        &mut self,
+        drives: &[&str],
+        bodies: &[BodyRef],
+        function: impl Fn(&ControlState<'_>, &mut Efforts) -> Result<(), CallError>
+        + Send
+        + Sync
+        + 'static,
+    ) -> Result<(), SetLawError> {
+        let mut values = Vec::new();
+        for drive in drives {
+            self.set_law(drive, &Law::commanded())?;
+            let mut forces = self.forces.iter_mut();
+            if let Some(force) = forces.find(|force| force.name == *drive) {
+                force.functions.clear();
+            }
+            values.push((*drive).to_owned());
+        }
+        let records = self.records();
+        for &body in bodies {
+            let name = body.moving().and_then(|at| records.get(at));
+            let name = name.map_or("ground", |record| record.name.as_str());
+            let kinds = ["force on", "torque on"].into_iter().zip(S::loads());
+            for (kind, element) in kinds {
+                let name = format!("{kind} {name}");
+                let count = element.spec().common.functions().count();
+                values.extend(std::iter::repeat_n(name.clone(), count));
+                self.forces.push(Force {
+                    name,
+                    bodies: vec![body],
+                    element,
+                    functions: Vec::new(),
+                });
+            }
+        }
+        let sizes = [drives.len(), bodies.len()];
+        self.controllers
+            .push(Controller::new(values, sizes, function));
+        Ok(())
     }
 
     /// Replaces the force law of a drive and keeps the joint coordinate.
@@ -433,6 +514,22 @@ impl AnyDescription {
     /// Returns an error if no drive of this name has a force law.
     pub fn set_law(&mut self, drive: &str, law: &Law) -> Result<(), SetLawError> {
         either!(self, d => d.set_law(drive, law))
+    }
+
+    /// Adds a controller; see [`MechanismDescription::control`].
+    ///
+    /// # Errors
+    /// Returns an error if one of the drives has no force law.
+    pub fn control(
+        &mut self,
+        drives: &[&str],
+        bodies: &[BodyRef],
+        function: impl Fn(&ControlState<'_>, &mut Efforts) -> Result<(), CallError>
+        + Send
+        + Sync
+        + 'static,
+    ) -> Result<(), SetLawError> {
+        either!(self, d => d.control(drives, bodies, function))
     }
 
     /// Adds a force and a torque on a body. A callback computes both from the state of the body.

@@ -107,6 +107,23 @@ impl Law {
         }
     }
 
+    /// Returns the law of a drive that a controller commands. The value of the controller takes the
+    /// place of the time, which is the only argument of this law.
+    pub(crate) fn commanded() -> Self {
+        Self {
+            form: Form::Program(Program::time()),
+            since_start: false,
+        }
+    }
+
+    /// Returns the law whose force or torque is one.
+    pub(crate) fn unit() -> Self {
+        Self {
+            form: Form::Program(Program::one()),
+            since_start: false,
+        }
+    }
+
     /// Returns whether the law calls a callback.
     #[must_use]
     pub fn is_called(&self) -> bool {

@@ -78,7 +78,9 @@ mod vectors;
 pub mod words;
 
 pub use agreement::{ConstraintLevel, Level, is_at_rest};
-pub use called::{BodyState, CallError, CalledWrench, DriveState, Wrench};
+pub use called::{
+    BodyState, CallError, CalledWrench, ControlState, Controller, DriveState, Efforts, Wrench,
+};
 pub use contact::{ContactLimits, Grip, GripLoad, OpenSide};
 pub use data::{
     Data, DataBlock, DataGradients, DataSlopes, DataUnit, ForceDerivatives, SHARED, explained,

@@ -4,6 +4,7 @@
 mod build;
 mod build_error;
 mod check;
+mod commands;
 mod counted;
 mod derivatives;
 mod elements;
@@ -135,6 +136,14 @@ impl Mechanism {
         let mut functions = given.iter().filter_map(KernelInput::function);
         functions
             .any(|of| !of.function.is_constant() || (gives_rate && of.function.jet(0.0)[0] != 0.0))
+    }
+
+    /// Returns the mechanism with another time of the start (s). The initial values of joints and
+    /// drives do not change.
+    #[must_use]
+    pub fn starting_at(mut self, t: f64) -> Self {
+        self.layout.start_time = t;
+        self
     }
 
     /// Returns the name of the mechanism.

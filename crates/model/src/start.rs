@@ -41,7 +41,7 @@ use options::kept_columns;
 pub use crate::size::scene_size;
 pub use conflict::{HeldVelocity, LockedBodies, VelocityConflict};
 pub use error::{Misfit, StartError};
-pub use options::{Coordinate, CorrectionLimit, KeepLevel, StartOptions, StartPose};
+pub use options::{Coordinate, CorrectionLimit, KeepLevel, StartOptions, StartPose, State};
 pub use velocity::{StartVelocity, consistent_velocity};
 
 /// An assembled configuration.
@@ -105,8 +105,13 @@ pub fn assemble(mechanism: &mut Mechanism, options: &StartOptions) -> Result<Ass
             missing(mechanism, &described, &rows)
         })?;
     }
-    if !options.poses.is_empty() {
-        let posed = posed(mechanism, &options.poses, &q)?;
+    let layout = mechanism.layout();
+    let is_later = layout.rheonomic && layout.start_time != 0.0;
+    if is_later || options.state.is_some() || !options.poses.is_empty() {
+        let posed = match &options.state {
+            Some(state) => state.q.clone(),
+            None => posed(mechanism, &options.poses, &q)?,
+        };
         check_sides(mechanism, &posed, size)?;
         // In this step all rows restrict the configuration, including rows of initial values.
         let rows: Vec<usize> = (0..mechanism.layout().m).collect();
@@ -119,7 +124,7 @@ pub fn assemble(mechanism: &mut Mechanism, options: &StartOptions) -> Result<Ass
         let columns = |pose: &StartPose| mechanism.space().columns_of(pose.body);
         let given: Vec<usize> = options.poses.iter().flat_map(columns).collect();
         for (j, moved) in correction.iter_mut().enumerate() {
-            if !given.contains(&j) {
+            if options.state.is_none() && !given.contains(&j) {
                 *moved = 0.0;
             }
         }
@@ -129,7 +134,7 @@ pub fn assemble(mechanism: &mut Mechanism, options: &StartOptions) -> Result<Ass
             })?;
         }
     }
-    mechanism.pose(0.0, &q, &mut s);
+    mechanism.pose(mechanism.layout().start_time, &q, &mut s);
     mechanism.phi(&mut s);
     let residual = s.phi.iter().fold(0.0_f64, |a, x| a.max(x.abs()));
     Ok(Assembly {
@@ -154,7 +159,7 @@ fn check_sides(mechanism: &Mechanism, q: &[f64], size: f64) -> Result<(), StartE
         return Ok(());
     }
     let mut s = mechanism.scratch();
-    mechanism.pose(0.0, q, &mut s);
+    mechanism.pose(mechanism.layout().start_time, q, &mut s);
     mechanism.phi(&mut s);
     let depth = |(name, row, sign): &(&String, usize, f64)| ((*name).clone(), -sign * s.phi[*row]);
     let depths = sided.iter().map(depth);
@@ -207,7 +212,7 @@ fn closest(
 ) -> Result<Vec<f64>, StartError> {
     let (rows, _) = restricting;
     let within = mechanism.has_tolerances();
-    let start = (0.0, within);
+    let start = (mechanism.layout().start_time, within);
     let q = nearest(mechanism, s, start, restricting, described, described);
     let q = if within {
         within::within_data(mechanism, s, restricting, described, size, q)
@@ -415,7 +420,7 @@ fn is_rounding(mechanism: &Mechanism, s: &Scratch, row: usize) -> bool {
 /// Returns the joints and drives that are violated at coordinates q, the largest violation first.
 fn missing(mechanism: &Mechanism, q: &[f64], rows: &[usize]) -> Vec<Misfit> {
     let mut s = mechanism.scratch();
-    mechanism.pose(0.0, q, &mut s);
+    mechanism.pose(mechanism.layout().start_time, q, &mut s);
     mechanism.phi(&mut s);
     approach::misfits(mechanism, &s, rows)
 }

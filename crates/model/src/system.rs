@@ -103,6 +103,8 @@ pub struct Layout {
     pub break_times: Vec<f64>,
     /// Whether a row depends on time explicitly.
     pub rheonomic: bool,
+    /// Time of the start (s).
+    pub start_time: f64,
 }
 
 impl Layout {
@@ -128,7 +130,7 @@ impl Layout {
     #[must_use]
     pub fn before_break(&self, t: f64) -> f64 {
         let found = self.break_times.binary_search_by(|at| at.total_cmp(&t));
-        if found.is_ok() && t > 0.0 {
+        if found.is_ok() && t > self.start_time {
             t.next_down()
         } else {
             t

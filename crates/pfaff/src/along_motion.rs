@@ -251,7 +251,8 @@ impl Study {
         intervals: usize,
         progress: &mut (impl FnMut(MotionProgress) + Send),
     ) -> Result<VerdictsAlongMotion, StudyError> {
-        let Some(to) = run.rows.last().map(|row| row.t).filter(|t| *t > 0.0) else {
+        let start = self.start_time();
+        let Some(to) = run.rows.last().map(|row| row.t).filter(|t| *t > start) else {
             return Err(match run.stopped {
                 Some(error) => error.into(),
                 None => StudyError::NoEnd,
@@ -324,7 +325,9 @@ impl Study {
         }
         let (summary, stopped) = match outcome {
             Ok(summary) => (summary, None),
-            Err(failure) if failure.summary.t > 0.0 => (failure.summary, Some(failure.error)),
+            Err(failure) if failure.summary.t > self.start_time() => {
+                (failure.summary, Some(failure.error))
+            }
             Err(failure) => return Err(failure.error.into()),
         };
         if !wanted.accelerations {

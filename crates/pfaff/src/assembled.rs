@@ -258,7 +258,7 @@ impl AssembledScene {
         if decision.is_decided() {
             let (q, kept) = (&configuration.state.q, &decision.kept);
             let mechanism = configuration.mechanism;
-            let rows = solvability::rows(mechanism, 0.0, q)?;
+            let rows = solvability::rows(mechanism, mechanism.layout().start_time, q)?;
             configuration.state.v = match start_velocity(mechanism, start, &rows, q, kept) {
                 Ok((found, _)) => found.v,
                 Err(MotionError::Start(StartError::NoVelocity { .. }))

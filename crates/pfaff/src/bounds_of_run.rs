@@ -224,7 +224,7 @@ impl<'m> BoundsOfRun<'m> {
             return row;
         }
         let known = match instant.t {
-            0.0 => ConfigurationAccuracy::AsStored,
+            t if t == self.mechanism.layout().start_time => ConfigurationAccuracy::AsStored,
             _ => ConfigurationAccuracy::To(self.rtol),
         };
         let (t, q) = (instant.t, &instant.q);

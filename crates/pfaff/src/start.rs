@@ -227,6 +227,12 @@ impl JudgedStart {
         }
     }
 
+    /// Returns the time of the start (s).
+    #[must_use]
+    pub fn start_time(&self) -> f64 {
+        self.parts().1.layout().start_time
+    }
+
     /// Returns the study, if the mechanism can move.
     ///
     /// # Errors
@@ -237,6 +243,22 @@ impl JudgedStart {
             Self::Stands(stands) => Err(stands.refusal.clone()),
         }
     }
+}
+
+/// Returns the time of a request (s). Zero requests the start.
+///
+/// # Errors
+/// Returns an error if the time is before the start.
+pub(crate) fn asked_time(asked: f64, start_time: f64) -> Result<f64, Refusal> {
+    if asked == 0.0 {
+        return Ok(start_time);
+    }
+    if asked >= start_time && asked.is_finite() {
+        return Ok(asked);
+    }
+    Err(Refusal::input(format!(
+        "--at-time is {asked}, need a time ≥ {start_time}"
+    )))
 }
 
 /// Returns the document of a configuration without results for further questions.

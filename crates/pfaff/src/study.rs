@@ -71,6 +71,7 @@ const SEARCHES: usize = 3;
 
 /// A scene that has been assembled and can move.
 #[non_exhaustive]
+#[derive(Clone)]
 pub struct Study {
     /// The scene, read from a text or made by a program.
     pub scene: Scene,
@@ -128,6 +129,37 @@ pub struct ChosenNumbers {
 }
 
 impl Study {
+    /// Returns the time of the start (s).
+    #[must_use]
+    pub fn start_time(&self) -> f64 {
+        self.prepared.start_time()
+    }
+
+    /// Returns the study with another start: a time (s), coordinates and velocities. Prescribed
+    /// motions and functions of time continue.
+    ///
+    /// ```
+    /// use pfaff::prelude::*;
+    ///
+    /// let mut thrown = Description { gravity: [0.0, -10.0], ..Description::new("thrown") };
+    /// thrown.body(Body { velocity: Some([0.0, 5.0]), ..Body::new("stone", 1.0, 1.0) });
+    /// let study = Study::build(thrown)?;
+    /// let state = study.state_at(0.5)?;
+    /// let later = study.at(0.5, &state.q, &state.v)?;
+    /// assert_eq!(later.start_time(), 0.5);
+    /// assert!((later.state_at(1.0)?.q[1] - 0.0).abs() < 1e-9);
+    /// # Ok::<(), StudyError>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`StudyError::Motion`]: the state does not satisfy the constraints, or no rows can be chosen.
+    pub fn at(&self, t: f64, q: &[f64], v: &[f64]) -> Result<Self, StudyError> {
+        Ok(Self {
+            prepared: self.prepared.at(t, q, v)?,
+            ..self.clone()
+        })
+    }
+
     /// Reads a scene, finds a consistent start and chooses rows. `name` is the file name in
     /// messages.
     ///
@@ -212,18 +244,18 @@ impl Study {
         let mechanism = &self.prepared.mechanism;
         // A later configuration is only as accurate as the motion up to that time.
         let known = match t {
-            0.0 => ConfigurationAccuracy::AsStored,
+            t if t == self.start_time() => ConfigurationAccuracy::AsStored,
             _ => ConfigurationAccuracy::To(self.motion_to(t).rtol),
         };
         let rows = match (drop, &self.prepared.decided) {
             (Some(drop), _) => AskedRows::Dropped(drop),
-            (None, Some(decided)) if t == 0.0 => AskedRows::Decided(decided),
+            (None, Some(decided)) if t == self.start_time() => AskedRows::Decided(decided),
             (None, _) => AskedRows::Any,
         };
         let configuration =
             ConfigurationAnalysis::new(&self.scene, mechanism, t, state, known, rows, progress)?;
         // Contradictions at the start were checked when the start was prepared.
-        let found = if t == 0.0 {
+        let found = if t == self.start_time() {
             Vec::new()
         } else {
             configuration.contradictions()?
@@ -336,7 +368,10 @@ impl Study {
             }
         }
         let held = there.held_at(found.time);
-        held.check_contacts((0.0, held.state_at(0.0)?), "the position found")?;
+        held.check_contacts(
+            (held.start_time(), held.state_at(held.start_time())?),
+            "the position found",
+        )?;
         Ok((found, there))
     }
 
@@ -407,6 +442,29 @@ impl Study {
         )
     }
 
+    /// Returns the text of a scene that starts at a time (s), coordinates and velocities; see
+    /// [`scene::in_motion`]. The scene must have been read from a text.
+    ///
+    /// # Errors
+    /// Returns an error if the state cannot be written into the text.
+    pub fn text_at(&self, t: f64, q: &[f64], v: &[f64]) -> Result<String, KeyError> {
+        let mechanism = &self.prepared.mechanism;
+        if mechanism.layout().turns > 0 {
+            let (name, _) = mechanism.coordinate_name(mechanism.layout().n_q - 1);
+            return Err(KeyError::Turns {
+                name: name.to_owned(),
+            });
+        }
+        let bodies = 0..mechanism.bodies().len();
+        let velocities = bodies.map(|body| {
+            let state = mechanism.frames().body(body, q, v);
+            [state.velocity, state.omega]
+        });
+        let velocities: Vec<_> = velocities.collect();
+        let poses = frames(&self.scene, mechanism, q);
+        scene::in_motion(&self.scene, t, &poses, &velocities)
+    }
+
     /// Finds the first contradiction of drives after the start. Drives may contradict each other,
     /// or the motions that the joints permit. The check uses a dozen times up to the end of the
     /// run. Returns `None` if there is no contradiction, if the end of the run is not stated, or if
@@ -444,7 +502,7 @@ impl Study {
             return None;
         }
         let options = MotionOptions {
-            t_end: 0.0,
+            t_end: self.start_time(),
             ..self.motion_to(1.0)
         };
         let wanted = OutputRequest {
@@ -502,7 +560,7 @@ impl Study {
     /// - [`StudyError::Motion`]: the motion does not reach that time.
     /// - [`StudyError::Interrupted`]: `stop` returned true.
     pub fn state_until(&self, t: f64, stop: &Stop<'_>) -> Result<State, StudyError> {
-        if t == 0.0 {
+        if t == self.start_time() {
             return Ok(State {
                 q: self.prepared.q.clone(),
                 v: self.prepared.v.clone(),
@@ -732,7 +790,12 @@ impl Study {
         let mut sinks: Vec<&mut dyn RowSink> = vec![&mut path, &mut caller];
         sinks.extend(pulls.as_mut().map(|sink| sink as &mut dyn RowSink));
         sinks.extend(bounds.as_mut().map(|sink| sink as &mut dyn RowSink));
-        let ended = run_into(&plan, (&goes_on, stop), &mut |_| goes_on(0.0), &mut sinks)?;
+        let ended = run_into(
+            &plan,
+            (&goes_on, stop),
+            &mut |_| goes_on(self.start_time()),
+            &mut sinks,
+        )?;
         if let Some(bounds) = &mut bounds {
             bounds.end(ended.summary.verdicts.as_ref(), &ended.ending())?;
         }
@@ -784,7 +847,7 @@ impl Study {
 
     /// Returns the data of a run that are known before the run begins.
     fn begun(&self) -> Result<RunPreparation<'_>, StudyError> {
-        let start = self.analyse(0.0, None)?;
+        let start = self.analyse(self.start_time(), None)?;
         let choices = self.choices.iter().map(|choice| start.named(choice));
         let sensitivities = start.sensitivities()?;
         Ok(RunPreparation {

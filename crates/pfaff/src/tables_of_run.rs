@@ -14,7 +14,7 @@ use std::path::PathBuf;
 use crate::documents::Ending;
 use crate::documents::{Gap, choice_file};
 use dynamics::{MotionFault, Plan, Sample};
-use model::Mechanism;
+use model::{Mechanism, System};
 use report::{
     FileError, MoreColumns, OutputDirectory, OutputFile, ReactionColumn, ReactionTable, SceneUnits,
     Selection, TableError, TrajectoryTable, write_chosen, write_determined,
@@ -274,7 +274,11 @@ impl RowSink for ReactionFiles<'_> {
             verdicts
         } else {
             // No joint or drive is written, so every cell is determined.
-            nothing = Stretches::unique(self.mechanism, [0.0; 2], self.numbers.groups());
+            nothing = Stretches::unique(
+                self.mechanism,
+                [self.mechanism.layout().start_time; 2],
+                self.numbers.groups(),
+            );
             &nothing
         };
         self.found = self.peaks.finish(stretches);

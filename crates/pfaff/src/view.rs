@@ -84,7 +84,7 @@ impl Drawing {
         document: impl Fn(&ConfigurationAnalysis<'_>) -> Result<AnalysisDocument, StudyError>,
     ) -> Result<Self, Refusal> {
         let judged = of.judged(control)?;
-        let start = of.configuration(&judged, 0.0, control, |_| ());
+        let start = of.configuration(&judged, judged.start_time(), control, |_| ());
         let start = start.map_err(|e| of.refusal(e))?;
         let document = document(&start).map_err(|e| of.refusal(e))?;
         let (mut pixels, mut boxes) = (None, String::new());
@@ -111,14 +111,21 @@ impl Drawing {
 fn figure(start: &ConfigurationAnalysis<'_>) -> Result<String, Refusal> {
     let marking = Marking::Verdicts(&start.analysis.reactions);
     let labels = Labels::NamesAndRows;
-    labelled_mechanism(start.mechanism, 0.0, &start.state.q, marking, labels)
-        .map_err(|e| Refusal::stopped(e.to_string()))
+    labelled_mechanism(
+        start.mechanism,
+        start.mechanism.layout().start_time,
+        &start.state.q,
+        marking,
+        labels,
+    )
+    .map_err(|e| Refusal::stopped(e.to_string()))
 }
 
 /// Returns the page for the start, without a run.
 fn page(start: &ConfigurationAnalysis<'_>, document: &AnalysisDocument, origin: &Origin) -> String {
-    let mut recording = Recording::new(0.0, 1.0, 1);
-    let frame = Frame::at_rest(0.0, &start.state.q, start.mechanism.layout().n_v);
+    let layout = start.mechanism.layout();
+    let mut recording = Recording::new(layout.start_time, 1.0, 1);
+    let frame = Frame::at_rest(layout.start_time, &start.state.q, layout.n_v);
     recording.frames.push(frame);
     run_page(&RunPage {
         mechanism: start.mechanism,

@@ -86,7 +86,7 @@ impl Subject {
     fn new(study: Study, title: &str, reference: Option<Reference>) -> Result<Self, StudyError> {
         let base = study.options.clone().ok_or(StudyError::NoEnd)?;
         base.check()?;
-        if base.t_end == 0.0 {
+        if base.t_end <= study.start_time() {
             return Err(StudyError::NoEnd);
         }
         let times = match &reference {

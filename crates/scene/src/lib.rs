@@ -100,6 +100,6 @@ pub use scene::{Inactive, Scene};
 pub use schema::schema;
 pub use source_map::{Entry, SourceMap};
 pub use stiffness::CentreOfStiffness;
-pub use template::{KeyError, RetypedJoint, Shift, Template, at_rest, posed, retyped};
+pub use template::{KeyError, RetypedJoint, Shift, Template, at_rest, in_motion, posed, retyped};
 pub use text::SourceText;
 pub use units::{WithUnit, in_si};

@@ -158,6 +158,7 @@ fn document<S: SceneBody>(mut root: Table, registry: &Registry) -> Scene {
     let cases = case::read(&mut root, findings);
     let start = section(&mut root, &section::START, &mut sections)
         .map(|table| start::read::<S>(table, &parts.bodies.names));
+    let (start, start_time) = start.unwrap_or_default();
     let output = section(&mut root, &section::OUTPUT, &mut sections).map(|table| {
         reactions::output::<S>(
             table,
@@ -207,6 +208,8 @@ fn document<S: SceneBody>(mut root: Table, registry: &Registry) -> Scene {
         joints,
         drives,
         forces,
+        start_time,
+        controllers: Vec::new(),
     });
     let source = SourceMap {
         silenced: Vec::new(),
@@ -229,7 +232,7 @@ fn document<S: SceneBody>(mut root: Table, registry: &Registry) -> Scene {
         description,
         start: StartOptions {
             poses: parts.bodies.poses,
-            ..start.unwrap_or_default()
+            ..start
         },
         simulate: simulate.map(|simulate| simulate.options),
         output: Output {

@@ -178,7 +178,7 @@ fn check_length(options: &MotionOptions, step: &Field, end: &Field) {
 }
 
 /// Reads a number within its bounds; the error messages are the messages of `dynamics`.
-fn bounded(field: &Field, key: &Key) -> Option<f64> {
+pub(crate) fn bounded(field: &Field, key: &Key) -> Option<f64> {
     let value = field.number(key.unit)?;
     if key.allows(value) {
         return Some(value);

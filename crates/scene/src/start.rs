@@ -7,10 +7,12 @@ use model::start::{Coordinate, CorrectionLimit, KeepLevel};
 use serde_json::json;
 
 use crate::body::{BodyNames, GROUND};
+use crate::dimension::Dimension;
 use crate::field::Field;
-use crate::key::{Key, Takes};
+use crate::key::{Interval, Key, Takes};
 use crate::mistake::Mistake;
 use crate::nearest::{did_you_mean, list};
+use crate::simulate::bounded;
 use crate::space::{BodyCoordinate, SceneSpace};
 use crate::table::Table;
 
@@ -25,11 +27,20 @@ const ALLOW_CORRECTION: Key = Key::optional("allow_correction", "true or false",
     .doc("Whether the start may be corrected by more than a thousandth of the scene's size, and given velocities by more than a thousandth of the fastest that hang together with them")
     .or(|| false.into());
 
-/// Keys of the section.
-pub(crate) const KEYS: [Key; 2] = [KEEP, ALLOW_CORRECTION];
+const TIME: Key = Key::optional(
+    "time",
+    "a finite time ≥ 0",
+    Takes::Number(Interval::NotNegative),
+)
+.unit(Dimension::TIME)
+.doc("Time of the start, at which runs begin; the described configuration belongs to the time 0")
+.or(|| json!(0.0));
 
-/// Reads the section.
-pub(crate) fn read<S: SceneSpace>(mut table: Table, bodies: &BodyNames) -> StartOptions {
+/// Keys of the section.
+pub(crate) const KEYS: [Key; 3] = [KEEP, ALLOW_CORRECTION, TIME];
+
+/// Reads the section: the options of the start, and its time (s).
+pub(crate) fn read<S: SceneSpace>(mut table: Table, bodies: &BodyNames) -> (StartOptions, f64) {
     let mut keep: Vec<Coordinate> = Vec::new();
     let mut named = HashMap::new();
     for item in table.items(&KEEP) {
@@ -51,8 +62,11 @@ pub(crate) fn read<S: SceneSpace>(mut table: Table, bodies: &BodyNames) -> Start
         }
     }
     let allowed = table.flag(&ALLOW_CORRECTION);
+    let time = table
+        .optional(&TIME)
+        .and_then(|field| bounded(&field, &TIME));
     table.close();
-    StartOptions {
+    let options = StartOptions {
         keep,
         correction: match allowed {
             Some(true) => CorrectionLimit::Any,
@@ -60,7 +74,9 @@ pub(crate) fn read<S: SceneSpace>(mut table: Table, bodies: &BodyNames) -> Start
         },
         // The initial poses are given in the tables of the bodies.
         poses: Vec::new(),
-    }
+        state: None,
+    };
+    (options, time.unwrap_or_default())
 }
 
 /// Parses a coordinate such as `body.angle`.

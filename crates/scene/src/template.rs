@@ -18,7 +18,7 @@ use toml::de::DeTable;
 use key::SlotKind;
 
 pub use key::KeyError;
-pub use rest::{at_rest, posed};
+pub use rest::{at_rest, in_motion, posed};
 pub use retyped::{RetypedJoint, retyped};
 
 use crate::limits;

@@ -115,7 +115,7 @@ pub fn along_motion_of_parts(
 ) -> Result<MotionAnalysis, AlongError> {
     let times = with_break_times(mechanism, times, of_run)?;
     let first = motion(times[0], &Extent::Whole);
-    state::check(mechanism, times[0], &first.q, &first.v)?;
+    state::check_state(mechanism, times[0], &first.q, &first.v)?;
     match Partition::of(mechanism, times[0], &first.q) {
         Partition::One => judged_as_one(
             mechanism,

@@ -198,7 +198,7 @@ pub fn contradictions(
     v: &[f64],
     ranks: Ranks<'_>,
 ) -> Result<Vec<Contradiction>, StateError> {
-    state::check(mechanism, t, q, v)?;
+    state::check_state(mechanism, t, q, v)?;
     let mut s = mechanism.scratch();
     mechanism.pose(t, q, &mut s);
     mechanism.phi(&mut s);

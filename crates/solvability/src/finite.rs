@@ -22,7 +22,7 @@ use crate::limits::{AT_REST_SPEED, PUSHES, ROUNDING_PUSH};
 use crate::pose::{evaluated, velocity_units};
 use crate::row_decision::RowDecision;
 use crate::second_order::{AccelerationVerdict, RestrictedVelocities, SecondOrder, restrictions};
-use crate::state::{StateError, check};
+use crate::state::{StateError, check_state};
 use crate::value::NoFiniteReaction;
 
 /// Returns the sets of connected bodies whose reactions have no finite value at time t, coordinates
@@ -37,7 +37,7 @@ pub fn no_finite_reactions(
     (t, q, v): (f64, &[f64], &[f64]),
     decision: &RankDecision,
 ) -> Result<Vec<NoFiniteReaction>, StateError> {
-    check(mechanism, t, q, v)?;
+    check_state(mechanism, t, q, v)?;
     let found = restrictions(mechanism, t, q, decision)?;
     if found.restricted.is_empty() {
         return Ok(Vec::new());

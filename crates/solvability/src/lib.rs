@@ -146,7 +146,7 @@ pub use second_order::{
     blocked_velocities, common_zero, is_locked, restrictions, second_order,
 };
 pub use sensitivity::{GroupSensitivities, ReactionNumber, ReactionSensitivities, Sensitivities};
-pub use state::{State, StateError};
+pub use state::{State, StateError, check_state};
 pub use stretches::{
     CarriedState, CarriedVerdicts, GroupStretches, InstantOrder, ReactionStretches, SpecialInstant,
     Stretches, VerdictRecorder, VerdictStretch, VerdictTrack,

@@ -19,7 +19,7 @@ use crate::existence::{Contradiction, Ranks, contradictions};
 use crate::parts::{Extent, ListedRows, Partition};
 use crate::row_decision::RowDecision;
 use crate::sparse::decide_some;
-use crate::state::{StateError, check, check_configuration};
+use crate::state::{StateError, check_configuration, check_state};
 
 /// Rows of C, and of Φq alone, decided at one configuration, part by part. The simulation, the
 /// verdicts and the texts all use these decisions.
@@ -363,7 +363,7 @@ impl Rows {
         q: &[f64],
         v: &[f64],
     ) -> Result<Vec<Contradiction>, StateError> {
-        check(mechanism, t, q, v)?;
+        check_state(mechanism, t, q, v)?;
         let mut all = Vec::new();
         for part in &self.parts {
             // For larger parts, the monitors of the simulation compare the rows.

@@ -94,10 +94,10 @@ pub fn second_order(
     decision: &RankDecision,
     regular: &Matrix,
 ) -> Result<Continuation, StateError> {
-    state::check(mechanism, t, q, v)?;
+    state::check_state(mechanism, t, q, v)?;
     for k in 0..regular.ncols() {
         let column: Vec<f64> = (0..regular.nrows()).map(|i| regular[(i, k)]).collect();
-        state::check(mechanism, t, q, &column)?;
+        state::check_state(mechanism, t, q, &column)?;
     }
     let forms = Forms::new(mechanism, t, q, v, decision, regular);
     Ok(match forms {
@@ -143,7 +143,7 @@ pub fn restrictions(
     decision: &RankDecision,
 ) -> Result<Restrictions, StateError> {
     let n = mechanism.layout().n_v;
-    state::check(mechanism, t, q, &vec![0.0; n])?;
+    state::check_state(mechanism, t, q, &vec![0.0; n])?;
     let unrestricted = n.saturating_sub(decision.rank);
     if !may_block(mechanism, decision) {
         return Ok(Restrictions {

@@ -1,16 +1,8 @@
 //! A state that the caller passes, and a check that the state fits the mechanism.
 
 use model::codes::Code;
+pub use model::start::State;
 use model::{Mechanism, System};
-
-/// Coordinates and velocities at one instant.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct State {
-    /// Coordinates, n_q values.
-    pub q: Vec<f64>,
-    /// Velocities, n_v values.
-    pub v: Vec<f64>,
-}
 
 /// Reason why a state is invalid.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
@@ -61,7 +53,10 @@ impl StateError {
 }
 
 /// Checks the sizes of a state, and checks that its numbers are finite.
-pub(crate) fn check(
+///
+/// # Errors
+/// Returns the first violated condition.
+pub fn check_state(
     mechanism: &Mechanism,
     time: f64,
     q: &[f64],

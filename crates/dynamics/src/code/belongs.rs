@@ -405,8 +405,12 @@ impl Comparison<'_> {
 
 /// Returns the start, and times between the break times.
 fn times(mechanism: &Mechanism) -> Vec<f64> {
-    let breaks = &mechanism.layout().break_times;
-    let first = std::iter::once(0.0).chain(breaks.iter().copied().filter(|t| *t > 0.0));
+    let (start, breaks) = (
+        mechanism.layout().start_time,
+        &mechanism.layout().break_times,
+    );
+    let breaks = breaks.iter().copied().filter(|t| *t > start);
+    let first = std::iter::once(start).chain(breaks);
     let mut ends: Vec<f64> = first.collect();
     ends.push(ends[ends.len() - 1] + 1.0);
     ends.windows(2).map(|w| 0.5 * (w[0] + w[1])).collect()
@@ -419,14 +423,15 @@ fn check_values(
 ) -> Result<(), CodeMismatch> {
     let mut motion = KeptRowMotion::new(prepared)?;
     let mut a = vec![0.0; prepared.v.len()];
-    let health = code.acceleration(0.0, &prepared.q, &prepared.v, &mut a);
+    let t = prepared.start_time();
+    let health = code.acceleration(t, &prepared.q, &prepared.v, &mut a);
     if health.is_nan() || health < LEAVE {
         return Err(CodeMismatch::Unhealthy {
             name: code.spec().name.to_string(),
             health,
         });
     }
-    compare(&mut motion, code, (0.0, &prepared.q, &prepared.v))?;
+    compare(&mut motion, code, (t, &prepared.q, &prepared.v))?;
     if at == At::Start {
         return Ok(());
     }

@@ -45,7 +45,7 @@ impl<'m> Statics<'m> {
         let size = prepared.assembly.size;
         Self {
             mechanism,
-            t: 0.0,
+            t: prepared.start_time(),
             size,
             units: (0..mechanism.layout().n_v)
                 .map(|j| mechanism.space().unit(j, size))

@@ -166,7 +166,7 @@ fn refinement(prepared: &PreparedMechanism) -> Result<Decision<bool>, MotionErro
         );
     }
     let mut equations = KeptRowMotion::new(prepared)?.equations;
-    equations.factor_at(0.0, &prepared.q)?;
+    equations.factor_at(prepared.start_time(), &prepared.q)?;
     let value = equations.velocity.are_refined();
     let why = if value {
         "but digits cancel in the reduced mass at the start"

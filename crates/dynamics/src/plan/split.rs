@@ -84,7 +84,7 @@ fn prepared(whole: &PreparedMechanism, part: Part) -> PreparedPart {
         pick(&whole.v, &places.velocities),
     );
     let mut s = mechanism.scratch();
-    mechanism.pose(0.0, &q, &mut s);
+    mechanism.pose(mechanism.layout().start_time, &q, &mut s);
     mechanism.phi(&mut s);
     let decision = whole.decision.of_rows(&places.rows);
     let position_decision = whole.position_decision.of_rows(&places.rows);

@@ -13,7 +13,7 @@ use solvability::{
 
 use super::caller::{ShowRow, Stop, Watch, named};
 use super::equations::RunEquations;
-use super::integration::Run;
+use super::integration::{IntegrationResult, Run};
 use super::sample::AtRows;
 use super::summary::{Failure, Summary};
 use super::verdicts::RunVerdicts;
@@ -51,7 +51,7 @@ pub(super) fn run_component(
     drives_agree(prepared, options.t_end).map_err(not_begun)?;
     check_finite(prepared).map_err(not_begun)?;
     let begun = KeptRowMotion::evaluated(prepared, options, evaluator).and_then(|mut motion| {
-        motion.begin(0.0, &mut prepared.q.clone())?;
+        motion.begin(prepared.start_time(), &mut prepared.q.clone())?;
         Ok(motion)
     });
     let motion = begun.map_err(|e| not_begun(e.into()))?;
@@ -77,10 +77,10 @@ pub(super) fn run_component(
     let choices = carried_choices(plan, component, &wanted).map_err(not_begun)?;
     let wanted = (wanted, verdicts);
     let choices = (plan.choices.as_slice(), choices);
-    let equations = RunEquations::new(motion, prepared, options, wanted, choices, stop);
+    let mut equations = RunEquations::new(motion, prepared, options, wanted, choices, stop);
     let y0 = equations.y0();
     let interval = Interval {
-        t0: 0.0,
+        t0: prepared.start_time(),
         t_end: options.t_end,
         break_times: &prepared.mechanism.layout().break_times,
     };
@@ -91,7 +91,7 @@ pub(super) fn run_component(
         ..Options::with_tolerance(options.rtol, options.atol)
     };
     let rows = Rows::new(output_times(plan), &interval).map_err(|e| not_begun(named(e)))?;
-    let mut run = Run::new(equations, rows, row, watch);
+    let mut run = Run::new(&mut equations, rows, row, watch);
     let clock = Instant::now();
     let outcome = run.go(method, &interval, &y0, &settings);
     let wall_seconds = clock.elapsed().as_secs_f64();
@@ -100,7 +100,8 @@ pub(super) fn run_component(
         Err(f) => (f.t, f.y.clone(), f.statistics),
     };
     let t = run.ended.unwrap_or(t);
-    let (verdicts, dropped) = run.equations.finish_verdicts(&groups, t).unzip();
+    let stopped = run.stopped.take();
+    let (verdicts, dropped) = equations.finish_verdicts(&groups, t).unzip();
     let summary = Summary {
         t,
         verdicts,
@@ -112,26 +113,34 @@ pub(super) fn run_component(
         projections: statistics.projections,
         factorisations: statistics.factorisations,
         wall_seconds,
-        misfits: run.equations.misfits(),
-        ..run.equations.record.summary()
+        misfits: equations.misfits(),
+        ..equations.record.summary()
     };
-    let error = match (outcome, run.stopped) {
-        (_, Some(error)) => error,
-        (Ok(_), None) => match run.equations.failed.take() {
-            Some(fault) => fault.into(),
-            None => return Ok(summary),
-        },
-        (Err(f), None) => match named(f.error) {
-            MotionError::Integration(e) => match run.equations.cause(&e, f.t) {
-                Some(fault) => fault.into(),
-                None => MotionError::Integration(e),
-            },
-            error => error,
-        },
+    let Some(error) = cause(&mut equations, outcome, stopped) else {
+        return Ok(summary);
     };
     let error = at_singular_start(prepared, of_drives(prepared, options.t_end, error));
     let error = at_drive_limit(prepared, (t, &y), error);
     Err(Box::new(Failure { error, summary }))
+}
+
+/// Returns the reason why an integration ended early, if it did.
+pub(super) fn cause(
+    equations: &mut RunEquations<'_>,
+    outcome: IntegrationResult,
+    stopped: Option<MotionError>,
+) -> Option<MotionError> {
+    match (outcome, stopped) {
+        (_, Some(error)) => Some(error),
+        (Ok(_), None) => equations.failed.take().map(Into::into),
+        (Err(f), None) => Some(match named(f.error) {
+            MotionError::Integration(e) => match equations.cause(&e, f.t) {
+                Some(fault) => fault.into(),
+                None => MotionError::Integration(e),
+            },
+            error => error,
+        }),
+    }
 }
 
 /// Returns the solver for the additional choices of a plan in one of its components. Returns `None`
@@ -153,7 +162,12 @@ fn carried_choices<'p>(
     let choices = plan.choices.iter();
     let choices = choices.map(|named| component.share_of_choice(&named.choice));
     let choices: Vec<Choice> = choices.collect();
-    let carried = CarriedChoices::new(mechanism, (0.0, q), &decision.dropped, &choices)?;
+    let carried = CarriedChoices::new(
+        mechanism,
+        (mechanism.layout().start_time, q),
+        &decision.dropped,
+        &choices,
+    )?;
     Ok(Some(carried))
 }
 
@@ -173,18 +187,18 @@ fn drives_agree(prepared: &PreparedMechanism, t_end: f64) -> Result<(), MotionEr
 
 /// Returns an error for a start at which the constraints exclude, at second order, the acceleration
 /// that the loads cause.
-fn check_finite(prepared: &PreparedMechanism) -> Result<(), MotionError> {
+pub(super) fn check_finite(prepared: &PreparedMechanism) -> Result<(), MotionError> {
     let (mechanism, decision) = (&prepared.mechanism, &prepared.decision);
     let layout = mechanism.layout();
     if decision.redundancy == 0 || decision.rank == layout.n_v || layout.rows() > ONE_PART {
         return Ok(());
     }
-    let (q, v) = (&prepared.q, &prepared.v);
+    let (t, q, v) = (layout.start_time, &prepared.q, &prepared.v);
     let decision = match prepared.decided.as_ref().and_then(|rows| rows.whole()) {
         Some(certified) => Cow::Borrowed(certified),
         None => {
             let mut s = mechanism.scratch();
-            mechanism.pose(0.0, q, &mut s);
+            mechanism.pose(t, q, &mut s);
             mechanism.phi(&mut s);
             mechanism.c(&mut s);
             // Rows that are redundant only within a stated tolerance do not count as redundant in
@@ -195,7 +209,7 @@ fn check_finite(prepared: &PreparedMechanism) -> Result<(), MotionError> {
             }
         }
     };
-    let found = no_finite_reactions(mechanism, (0.0, q, v), &decision)?;
+    let found = no_finite_reactions(mechanism, (t, q, v), &decision)?;
     match found.into_iter().find(|found| found.decided) {
         Some(found) => Err(MotionError::NoFiniteReaction(Box::new(found))),
         None => Ok(()),
@@ -272,7 +286,7 @@ fn at_singular_start(prepared: &PreparedMechanism, error: MotionError) -> Motion
         return error;
     };
     let redundancy = prepared.decision.redundancy;
-    match generic(&prepared.mechanism, 0.0, &prepared.q) {
+    match generic(&prepared.mechanism, prepared.start_time(), &prepared.q) {
         Some(found) if found.redundancy < redundancy => MotionFault::SingularStart {
             redundancy,
             elsewhere: found.redundancy,
@@ -288,10 +302,14 @@ fn at_singular_start(prepared: &PreparedMechanism, error: MotionError) -> Motion
 /// Returns the times of the output rows.
 fn output_times(plan: &Plan<'_>) -> OutputTimes {
     let t_end = plan.options().t_end;
+    let t0 = plan
+        .components
+        .first()
+        .map_or(0.0, |first| first.prepared().start_time());
     match plan.rows.value {
         // A run of zero duration has one row.
-        _ if t_end <= 0.0 => OutputTimes::At(vec![0.0]),
-        plan::Rows::Ends => OutputTimes::At(vec![0.0, t_end]),
+        _ if t_end <= t0 => OutputTimes::At(vec![t0]),
+        plan::Rows::Ends => OutputTimes::At(vec![t0, t_end]),
         plan::Rows::Every | plan::Rows::Interpolated => {
             OutputTimes::Every(plan.options().output_step)
         }

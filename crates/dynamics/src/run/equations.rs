@@ -153,6 +153,11 @@ impl<'m> RunEquations<'m> {
         misfits.map_or_else(Vec::new, |m| m.found().to_vec())
     }
 
+    /// Sets the time at which the run ends (s).
+    pub(super) fn run_until(&mut self, t_end: f64) {
+        self.until.t_end = t_end;
+    }
+
     /// Returns y at the start, before any evaluation.
     pub(super) fn y0(&self) -> Vec<f64> {
         self.scratch.stage.clone()
@@ -234,7 +239,8 @@ impl<'m> RunEquations<'m> {
         y: &mut [f64],
         row: &mut (dyn FnMut(&mut Sample<'_, '_>) -> Result<ControlFlow<()>, MotionFault> + '_),
     ) -> Result<ControlFlow<()>, MotionFault> {
-        let t_before = if t > 0.0 && self.is_break(t) {
+        let start_time = self.motion.mechanism().layout().start_time;
+        let t_before = if t > start_time && self.is_break(t) {
             t.next_down()
         } else {
             t

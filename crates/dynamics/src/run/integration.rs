@@ -24,7 +24,7 @@ use crate::options::Method;
 
 /// A run during its integration.
 pub(super) struct Run<'r, 'm> {
-    pub(super) equations: RunEquations<'m>,
+    pub(super) equations: &'r mut RunEquations<'m>,
     /// Output rows that are not yet passed to the caller.
     rows: Rows,
     row: &'r mut ShowRow<'r>,
@@ -35,12 +35,12 @@ pub(super) struct Run<'r, 'm> {
     pub(super) ended: Option<f64>,
 }
 
-type IntegrationResult = Result<Outcome, Box<integrators::Failure<MotionFault>>>;
+pub(super) type IntegrationResult = Result<Outcome, Box<integrators::Failure<MotionFault>>>;
 
 impl<'r, 'm> Run<'r, 'm> {
     /// Creates a run that has not started.
     pub(super) fn new(
-        equations: RunEquations<'m>,
+        equations: &'r mut RunEquations<'m>,
         rows: Rows,
         row: &'r mut ShowRow<'r>,
         watch: &'r Watch<'r>,
@@ -63,7 +63,7 @@ impl<'r, 'm> Run<'r, 'm> {
         y0: &[f64],
         settings: &Options,
     ) -> IntegrationResult {
-        let opening = contacts::opening_at_start(&mut self.equations, (interval.t0, y0));
+        let opening = contacts::opening_at_start(self.equations, (interval.t0, y0));
         let has_ended = self.show_start(y0).is_break();
         if let Ok(Some(fault)) | Err(fault) = opening {
             self.stopped.get_or_insert(fault.into());
@@ -128,7 +128,9 @@ impl<'r, 'm> Run<'r, 'm> {
             stopped,
             ..
         } = self;
-        rows.start(equations, y0, |e, t, y| show(e, (t, y), row, stopped))
+        rows.start(&mut **equations, y0, |e, t, y| {
+            show(e, (t, y), row, stopped)
+        })
     }
 
     /// Integrates until the end, or until another method must continue. Returns whether another

@@ -52,6 +52,12 @@ impl Record {
         }
     }
 
+    /// Removes and returns the recorded events.
+    pub(super) fn take_events(&mut self) -> Vec<Event> {
+        self.shown = 0;
+        std::mem::take(&mut self.events)
+    }
+
     /// Returns the recorded uniqueness at singular configurations with this number of dependent
     /// rows.
     pub(super) fn uniqueness_of(&self, dependent: usize) -> Option<&str> {

@@ -149,6 +149,19 @@ fn what_needs_derivatives_refuses_a_called_law_by_name() {
         "{:?}",
         found.a
     );
+    // An additional force of the motor is an input: m·Δẍ = ΔF.
+    let [motor] = &found.inputs[..] else {
+        panic!("{:?}", found.inputs);
+    };
+    assert_eq!(
+        (motor.name.as_str(), motor.what.as_str()),
+        ("motor of mass", "force")
+    );
+    assert!(
+        (found.b[(1, 0)] - 1.0 / MASS).abs() < 1e-12,
+        "{:?}",
+        found.b
+    );
     assert_eq!(
         rows(&prepared, Method::Radau5).len(),
         rows(&prepared, Method::Dop853).len()

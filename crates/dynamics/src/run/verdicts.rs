@@ -45,7 +45,7 @@ impl<'m> RunVerdicts<'m> {
     ) -> Self {
         let mechanism = motion.mechanism();
         let dropped = &prepared.decision.dropped;
-        let start = (0.0, prepared.q.as_slice());
+        let start = (prepared.start_time(), prepared.q.as_slice());
         let mut carried = CarriedVerdicts::new(mechanism, start, dropped, options.rtol, groups);
         if let (Some(carried), Verdicts::OfRun) = (&mut carried, wanted) {
             carried.leave_out_instants();
@@ -54,7 +54,7 @@ impl<'m> RunVerdicts<'m> {
             carried,
             dependencies: Vec::new(),
             dropped: Vec::new(),
-            last_cut: 0.0,
+            last_cut: prepared.start_time(),
             wanted,
             steps: 0,
             ends_first: false,
@@ -75,7 +75,7 @@ impl<'m> RunVerdicts<'m> {
         is_factored: bool,
     ) -> Result<(), MotionFault> {
         self.note_row(motion, state.0);
-        if self.wanted == Verdicts::OfRun && state.0 > 0.0 {
+        if self.wanted == Verdicts::OfRun && state.0 > motion.mechanism().layout().start_time {
             return Ok(());
         }
         self.look(motion, state, is_factored, InstantOrder::Next)

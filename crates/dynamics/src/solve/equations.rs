@@ -98,14 +98,14 @@ impl<'m> KeptEquations<'m> {
     }
 
     /// Returns the independent row with the largest coefficient in the dependency of a redundant
-    /// row at t = 0 and coordinates q. Only rows that are not yet used are considered.
+    /// row at the start time and coordinates q. Only rows that are not yet used are considered.
     pub(crate) fn partner(
         &mut self,
         q: &[f64],
         dropped: usize,
         taken: &[usize],
     ) -> Result<Option<usize>, MotionFault> {
-        self.factor_at(0.0, q)?;
+        self.factor_at(self.at.mechanism.layout().start_time, q)?;
         let at = &self.at;
         let mut z = vec![0.0; at.mechanism.layout().rows()];
         self.velocity.dependency(at, dropped, &mut z)?;

@@ -9,7 +9,7 @@ use super::slots::{Site, Slots};
 use super::turned::TurnedSlots;
 use super::{AnyForce, Bodies, ForceKernels, with};
 use crate::body::BodyRef;
-use crate::law::{DriveForce, UndefinedValue};
+use crate::law::{DriveForce, Law, UndefinedValue};
 
 /// A force with its indices in the mechanism.
 #[derive(Clone)]
@@ -21,6 +21,8 @@ pub(crate) struct PlacedForce {
     turned: Option<TurnedSlots>,
     /// Column of Q for each value of the kernel; `None` for the ground.
     pub(crate) columns: Vec<Option<usize>>,
+    /// Number of values of controllers among the arguments of the kernels.
+    pub(crate) signals: usize,
 }
 
 impl PlacedForce {
@@ -43,6 +45,7 @@ impl PlacedForce {
             element,
             site,
             turned,
+            signals: 0,
         }
     }
 
@@ -109,7 +112,7 @@ impl PlacedForce {
     }
 
     pub(crate) fn is_called(&self) -> bool {
-        with!(AnyForce, &self.element, element, _S => element.is_called())
+        self.signals > 0 || with!(AnyForce, &self.element, element, _S => element.is_called())
     }
 
     pub(crate) fn initialise(&mut self, bodies: &Bodies) {
@@ -150,6 +153,27 @@ impl PlacedForce {
             let (x, v, f) = (self.site.x::<S>(s), self.site.v::<S>(&s.rates), self.site.f(s));
             element.q(x, v, f, out);
         });
+    }
+
+    /// Adds this multiple of the contribution to Q.
+    pub(crate) fn add_q(&self, (s, block): (&Slots, &mut [f64]), share: f64, q: &mut [f64]) {
+        self.q(s, block);
+        for (column, value) in self.columns.iter().zip(block) {
+            if let Some(column) = column {
+                q[*column] += share * *value;
+            }
+        }
+    }
+
+    /// Returns the drive with a force or torque of one unit, in place of its force law.
+    pub(crate) fn with_unit_law(&self) -> Self {
+        let mut unit = self.clone();
+        with!(AnyForce, &mut unit.element, element, _S => {
+            if let Some(replaced) = element.with_law(&Law::unit()) {
+                *element = replaced;
+            }
+        });
+        unit
     }
 
     pub(crate) fn dq_dx(&self, s: &Slots, out: &mut [f64]) {

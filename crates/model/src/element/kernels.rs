@@ -53,6 +53,11 @@ pub trait BodySpace: joints::Space + Sized {
     #[doc(hidden)]
     fn wrench(wrench: CalledWrench) -> Box<dyn ForceKernels<Self>>;
 
+    /// Returns the kernels of a force and of a torque at the centre of mass of a body. Their
+    /// components are in ground axes.
+    #[doc(hidden)]
+    fn loads() -> [Box<dyn ForceKernels<Self>>; 2];
+
     /// Returns the constraint that makes the second joint coordinate a polynomial of the first.
     #[doc(hidden)]
     fn couple(

@@ -10,6 +10,7 @@ use super::BodySpace;
 use super::bodies::{Bodies, InEach, Poses, Twists, spatial_pose};
 use super::turned::lent;
 use crate::body::BodyRef;
+use crate::called::Commands;
 use crate::space::SpaceKind;
 
 /// Largest number of bodies of an element for which no memory is allocated. No joint of the library
@@ -133,8 +134,9 @@ pub(crate) struct Slots {
     pub(super) poses: Poses<f64>,
     /// Velocities of these bodies.
     pub(crate) rates: Rates,
-    /// Values of the functions of time.
+    /// Values of the functions of time and of the controllers.
     pub(crate) jets: Vec<[f64; 3]>,
+    pub(crate) commands: Commands,
 }
 
 impl Slots {
@@ -144,6 +146,7 @@ impl Slots {
             poses: InEach::filled(space, slots, Pose::GROUND, space3::Pose::GROUND),
             rates: Rates::zero(space, slots),
             jets: vec![[0.0; 3]; functions],
+            commands: Commands::default(),
         }
     }
 

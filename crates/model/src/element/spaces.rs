@@ -1,7 +1,7 @@
 //! Implementations of the traits of kernels for the plane and for space: joints, force laws, called
 //! wrenches and couplings.
 
-use joints::{Constraint, ConstraintKernels, Plane, Space3};
+use joints::{Constraint, ConstraintKernels, Plane, PointForce, Space3, Torque, space3};
 
 use super::kernels::{
     AnyConstraint, AnyForce, AttachedConstraint, AttachedMeasure, BodySpace, ForceKernels,
@@ -43,6 +43,10 @@ impl BodySpace for Plane {
 
     fn wrench(wrench: CalledWrench) -> Box<dyn ForceKernels> {
         Box::new(wrench)
+    }
+
+    fn loads() -> [Box<dyn ForceKernels>; 2] {
+        [Box::new(PointForce::new([0.0; 2])), Box::new(Torque::new())]
     }
 
     fn couple(
@@ -87,6 +91,11 @@ impl BodySpace for Space3 {
 
     fn wrench(wrench: CalledWrench) -> Box<dyn ForceKernels<Self>> {
         Box::new(wrench)
+    }
+
+    fn loads() -> [Box<dyn ForceKernels<Self>>; 2] {
+        let force = space3::PointForce::new([0.0; 3]);
+        [Box::new(force), Box::new(space3::Torque::new())]
     }
 
     fn couple(

@@ -31,6 +31,16 @@ impl Program {
         }
     }
 
+    /// The program that returns the time.
+    pub(crate) fn time() -> Self {
+        Self([Operation::Time].into())
+    }
+
+    /// The program that returns one.
+    pub(crate) fn one() -> Self {
+        Self([Operation::Number(1.0)].into())
+    }
+
     pub(crate) fn operations(&self) -> &[Operation] {
         &self.0
     }

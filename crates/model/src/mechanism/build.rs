@@ -38,7 +38,7 @@ impl<S: BodySpace> Buildable for MechanismDescription<S> {
         if !errors.is_empty() {
             return Err(errors);
         }
-        let mut b = Builder::new(S::KIND);
+        let mut b = Builder::new(S::KIND, self.start_time);
         let is_early = |spec: &ConstraintSpec| spec.holonomic > 0;
         b.joints(self, &bodies, is_early);
         let first_drive = b.elements.constraints.len();
@@ -63,6 +63,7 @@ impl<S: BodySpace> Buildable for MechanismDescription<S> {
             *next - 1
         });
         b.number_rows(&joints.chain(drives).collect::<Vec<_>>());
+        b.elements.controllers.clone_from(&self.controllers);
         for f in &self.forces {
             let turned = TurnedSlots::new(turn::principal(&bodies, &f.bodies));
             let kernels = S::any_force(f.element.clone());
@@ -139,16 +140,17 @@ impl Mechanism {
 
 /// Builds the lists of a mechanism, element by element.
 pub(super) struct Builder {
-    elements: Elements,
+    pub(super) elements: Elements,
     pub(super) layout: Layout,
 }
 
 impl Builder {
-    pub(super) fn new(space: SpaceKind) -> Self {
+    pub(super) fn new(space: SpaceKind, start_time: f64) -> Self {
         Self {
             elements: Elements::default(),
             layout: Layout {
                 space,
+                start_time,
                 ..Layout::default()
             },
         }
@@ -221,8 +223,21 @@ impl Builder {
     ) {
         let owner = Owner::Force(self.elements.forces.len());
         let mut site = self.site(bodies, functions, |_| 0.0, false);
+        let values = self.elements.controllers.iter();
+        let values = values.flat_map(|controller| &controller.values);
+        let all = values.clone().count();
+        self.elements.signals.resize(all, 0);
+        let mut signals = 0;
+        for (value, place) in values.zip(&mut self.elements.signals) {
+            if value == name {
+                *place = self.elements.given.len();
+                self.elements.given.push(KernelInput::Signal);
+                signals += 1;
+            }
+        }
         self.count(owner, element.spec().turns, &mut site);
-        let placed = PlacedForce::new(name, element, site, turned);
+        let mut placed = PlacedForce::new(name, element, site, turned);
+        placed.signals = signals;
         self.elements.block = self.elements.block.max(placed.columns.len());
         self.elements.forces.push(placed);
     }

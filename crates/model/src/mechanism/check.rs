@@ -299,7 +299,9 @@ fn check_places<S: BodySpace>(
     }
     for f in &d.forces {
         let (spec, points) = (&f.element.spec().common, f.element.points());
-        let takes = (&points[..], f.functions.len());
+        let values = d.controllers.iter().flat_map(|of| &of.values);
+        let signals = values.filter(|name| **name == f.name).count();
+        let takes = (&points[..], f.functions.len() + signals);
         check_place::<S>(records, &f.name, spec, &f.bodies, takes, errors);
     }
 }

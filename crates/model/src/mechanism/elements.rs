@@ -2,6 +2,7 @@
 //! kernels.
 
 use super::time_function::TimeFunction;
+use crate::called::Controller;
 use crate::element::{PlacedConstraint, PlacedForce, Site};
 
 /// The elements of a mechanism with their indices, and the arguments of their kernels.
@@ -11,6 +12,9 @@ pub(crate) struct Elements {
     pub(crate) forces: Vec<PlacedForce>,
     /// Arguments of kernels in addition to poses and velocities, in the order of the elements.
     pub(crate) given: Vec<KernelInput>,
+    pub(crate) controllers: Vec<Controller>,
+    /// Index of each value of the controllers among the arguments of kernels.
+    pub(crate) signals: Vec<usize>,
     /// The unwrapped angles. The angles of constraints come first, followed by the angles of
     /// forces.
     pub(crate) counted: Vec<CountedAngle>,
@@ -43,13 +47,17 @@ pub(crate) enum KernelInput {
     ///
     /// [`System::pose`]: crate::System::pose
     Counted,
+    /// A value of a controller; [`Mechanism::command`] sets this value.
+    ///
+    /// [`Mechanism::command`]: super::Mechanism::command
+    Signal,
 }
 
 impl KernelInput {
     pub(crate) fn function(&self) -> Option<&TimeFunction> {
         match self {
             Self::Function(function) => Some(function),
-            Self::Counted => None,
+            Self::Counted | Self::Signal => None,
         }
     }
 }

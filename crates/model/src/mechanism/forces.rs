@@ -5,13 +5,12 @@ use joints::spec::{ForceSpec, Unit};
 
 use super::Mechanism;
 use crate::body::BodyRef;
-use crate::element::PlacedForce;
 use crate::law::{DriveForce, UndefinedValue};
 use crate::system::Scratch;
 
 /// The applied forces of a mechanism, without gravity.
 #[derive(Clone, Copy)]
-pub struct AppliedForces<'m>(&'m [PlacedForce]);
+pub struct AppliedForces<'m>(&'m Mechanism);
 
 /// The data of an applied force for a drawing.
 #[derive(Clone, Debug)]
@@ -63,6 +62,12 @@ pub enum UndefinedForce {
         /// The reason.
         why: UndefinedValue,
     },
+    /// The values of a controller.
+    #[error("the controller ({why})")]
+    Controller {
+        /// The reason.
+        why: UndefinedValue,
+    },
     /// A drive with a force law.
     #[error("the law of drive `{name}` ({why}, at measure = {measure:.6}, rate = {rate:.6})")]
     Law {
@@ -83,6 +88,7 @@ impl UndefinedForce {
     pub fn name(&self) -> &str {
         match self {
             Self::Force { name } | Self::Called { name, .. } | Self::Law { name, .. } => name,
+            Self::Controller { .. } => "controller",
         }
     }
 
@@ -90,19 +96,31 @@ impl UndefinedForce {
     #[must_use]
     pub fn is_of_function(&self) -> bool {
         match self {
-            Self::Law { why, .. } | Self::Called { why, .. } => why.is_of_function(),
+            Self::Law { why, .. } | Self::Called { why, .. } | Self::Controller { why } => {
+                why.is_of_function()
+            }
             Self::Force { .. } => false,
         }
     }
 }
 
-/// The change of Q if a function of time of a force changes.
+/// Returns the name and the unit of the load along the joint coordinate of a drive.
+fn along(spec: &ForceSpec) -> (&'static str, Unit) {
+    let mut units = spec.common.functions();
+    if units.any(|(_, unit)| unit == Unit::Angle) {
+        ("torque", Unit::Torque)
+    } else {
+        ("force", Unit::Force)
+    }
+}
+
+/// The change of Q if a function of time of a force or the load of a drive changes.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Push<'m> {
     /// Name of the force.
     pub name: &'m str,
-    /// Name of the function in the definition of the force.
+    /// Name of the function in the definition of the force; "force" or "torque" for a drive.
     pub function: &'static str,
     /// Unit of the function.
     pub unit: Unit,
@@ -118,7 +136,7 @@ impl Mechanism {
     /// Returns the applied forces, without gravity.
     #[must_use]
     pub fn applied_forces(&self) -> AppliedForces<'_> {
-        AppliedForces(&self.elements.forces)
+        AppliedForces(self)
     }
 }
 
@@ -127,12 +145,12 @@ impl<'m> AppliedForces<'m> {
     /// energy.
     #[must_use]
     pub fn is_empty(self) -> bool {
-        self.0.is_empty()
+        self.0.elements.forces.is_empty()
     }
 
     /// Returns the data of the forces for a drawing. The function allocates memory.
     pub fn iter(self) -> impl Iterator<Item = AppliedForce<'m>> {
-        self.0.iter().map(|f| {
+        self.0.elements.forces.iter().map(|f| {
             let spec = f.spec();
             AppliedForce {
                 name: &f.name,
@@ -143,35 +161,44 @@ impl<'m> AppliedForces<'m> {
         })
     }
 
-    /// Returns the change of Q for a unit change of each function of time, at the configuration and
-    /// the velocities in the work space. The function allocates memory.
+    /// Returns the change of Q for a unit change of each function of time, and for an additional unit
+    /// force or torque of each drive with a force law and of each spring on a joint coordinate. Q is
+    /// evaluated at the configuration and the velocities in the work space. The function allocates
+    /// memory.
     #[must_use]
     pub fn pushes(self, s: &mut Scratch) -> Vec<Push<'m>> {
         let mut all = Vec::new();
-        // The time is an argument of force laws and callbacks, but it is not one of the functions
-        // of time of this list.
-        let of_time = |force: &&PlacedForce| !force.is_law() && !force.is_called();
-        for force in self.0.iter().filter(of_time) {
-            let functions = force.spec().common.functions();
-            for ((function, unit), at) in functions.zip(force.site.functions.clone()) {
-                let value = s.slots.jets[at][0];
-                let step = PUSH * value.abs().max(1.0);
+        for force in &self.0.elements.forces {
+            if force.is_law() {
+                let (function, unit) = along(force.spec());
                 let mut q = vec![0.0; s.force.len()];
-                for sign in [1.0, -1.0] {
-                    s.slots.jets[at][0] = value + sign * step;
-                    force.q(&s.slots, &mut s.block);
-                    let columns = force.columns.iter().zip(&s.block);
-                    for (column, x) in columns.filter_map(|(c, x)| Some(((*c)?, x))) {
-                        q[column] += sign * x / (2.0 * step);
-                    }
-                }
-                s.slots.jets[at][0] = value;
+                force
+                    .with_unit_law()
+                    .add_q((&s.slots, &mut s.block), 1.0, &mut q);
                 all.push(Push {
                     name: &force.name,
                     function,
                     unit,
                     q,
                 });
+            } else if !force.is_called() {
+                let functions = force.spec().common.functions();
+                for ((function, unit), at) in functions.zip(force.site.functions.clone()) {
+                    let value = s.slots.jets[at][0];
+                    let step = PUSH * value.abs().max(1.0);
+                    let mut q = vec![0.0; s.force.len()];
+                    for sign in [1.0, -1.0] {
+                        s.slots.jets[at][0] = value + sign * step;
+                        force.add_q((&s.slots, &mut s.block), sign / (2.0 * step), &mut q);
+                    }
+                    s.slots.jets[at][0] = value;
+                    all.push(Push {
+                        name: &force.name,
+                        function,
+                        unit,
+                        q,
+                    });
+                }
             }
         }
         all
@@ -180,7 +207,12 @@ impl<'m> AppliedForces<'m> {
     /// Returns the forces that use a callback and therefore have no derivatives, in the order of
     /// the forces.
     pub fn called(self) -> impl Iterator<Item = CalledForce> {
-        let called = self.0.iter().filter(|force| force.is_called());
+        let called = self
+            .0
+            .elements
+            .forces
+            .iter()
+            .filter(|force| force.is_called());
         called.map(|force| CalledForce {
             name: force.name.clone(),
             is_drive: force.is_law(),
@@ -191,7 +223,14 @@ impl<'m> AppliedForces<'m> {
     /// the work space.
     #[must_use]
     pub fn undefined(self, s: &mut Scratch) -> Option<UndefinedForce> {
-        self.0.iter().find_map(|force| {
+        self.0.command(s);
+        let is_known = |&place: &usize| s.slots.jets[place][0].is_finite();
+        if !self.0.elements.signals.iter().all(is_known)
+            && let Some(why) = self.0.uncommanded(s)
+        {
+            return Some(UndefinedForce::Controller { why });
+        }
+        self.0.elements.forces.iter().find_map(|force| {
             force.q(&s.slots, &mut s.block);
             let mut values = s.block[..force.columns.len()].iter();
             if values.all(|value| value.is_finite()) {
@@ -221,15 +260,11 @@ impl<'m> AppliedForces<'m> {
     /// work space, with the name of the force. Each contribution has n_v values. The function
     /// allocates memory.
     pub fn parts(self, s: &mut Scratch) -> impl Iterator<Item = (&'m str, Vec<f64>)> {
+        self.0.command(s);
         let n = s.force.len();
-        self.0.iter().map(move |force| {
-            force.q(&s.slots, &mut s.block);
+        self.0.elements.forces.iter().map(move |force| {
             let mut q = vec![0.0; n];
-            for (column, x) in force.columns.iter().zip(&s.block) {
-                if let Some(column) = column {
-                    q[*column] += x;
-                }
-            }
+            force.add_q((&s.slots, &mut s.block), 1.0, &mut q);
             (force.name.as_str(), q)
         })
     }
@@ -237,19 +272,22 @@ impl<'m> AppliedForces<'m> {
     /// Returns the names of the drives with force laws and the kind of the load, "force" or
     /// "torque", in the order of the forces.
     pub fn law_drives(self) -> impl Iterator<Item = (&'m str, &'static str)> {
-        let laws = self.0.iter().filter(|f| f.is_law());
-        laws.map(|force| {
-            let mut units = force.spec().common.functions();
-            let turns = units.any(|(_, unit)| unit == Unit::Angle);
-            (force.name.as_str(), if turns { "torque" } else { "force" })
-        })
+        let laws = self.0.elements.forces.iter().filter(|f| f.is_law());
+        laws.map(|force| (force.name.as_str(), along(force.spec()).0))
     }
 
     /// Returns the forces and torques of the drives with force laws at the configuration and the
     /// velocities in the work space. Each load acts on the second body along the joint coordinate.
     /// Undefined values are NaN.
-    pub fn of_laws(self, s: &Scratch) -> impl Iterator<Item = f64> {
-        let forces = self.0.iter().filter_map(|force| force.drive(&s.slots));
+    pub fn of_laws(self, s: &mut Scratch) -> impl Iterator<Item = f64> {
+        self.0.command(s);
+        let s = &*s;
+        let forces = self
+            .0
+            .elements
+            .forces
+            .iter()
+            .filter_map(|force| force.drive(&s.slots));
         forces.map(|d| d.force.unwrap_or(f64::NAN))
     }
 }

@@ -21,7 +21,7 @@ impl System for Mechanism {
 
     fn scratch(&self) -> Scratch {
         let layout = &self.layout;
-        Scratch {
+        let mut s = Scratch {
             t: 0.0,
             bodies: Bodies::new(self.space(), self.bodies.len()),
             phi: vec![0.0; layout.m],
@@ -41,11 +41,14 @@ impl System for Mechanism {
             jets_at: f64::NAN,
             block: vec![0.0; self.elements.block],
             own_rows: Vec::new(),
-        }
+        };
+        s.slots.commands = self.commands();
+        s
     }
 
     fn pose(&self, t: f64, q: &[f64], s: &mut Scratch) {
         s.t = t;
+        self.set_state(s, 0, q);
         let turns = || note(WorkKind::Trigonometry);
         s.bodies.take(self.space(), q, &self.held, turns);
         s.slots.take(self.elements.sites(), &s.bodies);
@@ -88,6 +91,7 @@ impl System for Mechanism {
     }
 
     fn twist(&self, v: &[f64], s: &mut Scratch) {
+        self.set_state(s, self.layout.n_q, v);
         s.slots.rates.take(self.elements.sites(), v);
         if self.space() == SpaceKind::Space3 {
             let bodies = v.chunks_exact(<space::Space3 as Space>::N_V);
@@ -110,6 +114,7 @@ impl System for Mechanism {
     }
 
     fn force(&self, s: &mut Scratch) {
+        self.command(s);
         s.force.copy_from_slice(&self.weight);
         for (body, &omega) in s.spins.iter().enumerate() {
             let at = self.space().rotations_of(body);

@@ -129,6 +129,7 @@ impl<'m> Loads<'m> {
     pub fn set(&mut self, t: f64, q: &[f64], v: &[f64]) {
         self.mechanism.pose(t, q, &mut self.s);
         self.mechanism.twist(v, &mut self.s);
+        self.mechanism.command(&mut self.s);
     }
 
     fn of(&self, force: &PlacedForce, (q, v): (&[f64], &[f64]), block: &mut [f64]) -> Load {

@@ -62,6 +62,9 @@ impl Mechanism {
     /// ```
     #[must_use]
     pub fn components(&self) -> Vec<Vec<usize>> {
+        if !self.elements.controllers.is_empty() {
+            return vec![(0..self.bodies.len()).collect()];
+        }
         connected(self.bodies.len(), self.elements.sites())
     }
 
@@ -161,7 +164,7 @@ fn assembled<'a>(
         assert!(here.is_some(), "`{name}` reaches beyond bodies {bodies:?}");
         here.unwrap_or_default()
     };
-    let mut b = Builder::new(whole.space());
+    let mut b = Builder::new(whole.space(), whole.layout.start_time);
     for &k in groups {
         let (c, group) = (&whole.elements.constraints[k], &whole.layout.groups[k]);
         b.constraint(
@@ -185,6 +188,9 @@ fn assembled<'a>(
         label.clone_from(&whole.layout.labels[row]);
     }
     let mut own_forces = Vec::new();
+    b.elements
+        .controllers
+        .clone_from(&whole.elements.controllers);
     for (k, f) in forces {
         own_forces.push(k);
         let functions = laws(whole, &f.site);
@@ -202,6 +208,10 @@ fn assembled<'a>(
     let velocities = places(whole.space().n_v());
     let own = bodies.iter().map(|&k| whole.bodies[k].clone()).collect();
     let weight = velocities.iter().map(|&j| whole.weight[j]).collect();
+    if own_forces.len() < whole.elements.forces.len() {
+        b.elements.controllers.clear();
+        b.elements.signals.clear();
+    }
     let mut mechanism = b.finish(&whole.name, own, weight);
     mechanism.tolerance = whole.tolerance;
     mechanism.observed = whole.observed.stated_for(here);

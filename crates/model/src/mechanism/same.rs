@@ -9,7 +9,7 @@ impl Mechanism {
     /// values, tolerances and initial values, and whether its bodies have the same sizes. In this
     /// case, all results about the constraints at a configuration are equal for both mechanisms.
     /// Masses, moments of inertia and weights may differ. The result is also `false` for mechanisms
-    /// with unwrapped angles, which cannot be compared.
+    /// with unwrapped angles or controllers, which cannot be compared.
     ///
     /// ```
     /// use pfaff_model::{Body, Description, Mechanism};
@@ -24,7 +24,7 @@ impl Mechanism {
     pub fn has_constraints_of(&self, other: &Self) -> bool {
         let is_recorded = |m: &Self| {
             let known = matches!(m.space(), SpaceKind::Plane | SpaceKind::Space3);
-            known && m.layout.turns == 0
+            known && m.layout.turns == 0 && m.elements.controllers.is_empty()
         };
         let bits = |x: &[f64]| -> Vec<u64> { x.iter().map(|x| x.to_bits()).collect() };
         let stated = |m: &Self| {

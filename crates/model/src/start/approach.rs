@@ -68,7 +68,7 @@ fn linearised(
     size: f64,
 ) -> Result<Linearisation, StartError> {
     let layout = mechanism.layout();
-    mechanism.pose(0.0, q, s);
+    mechanism.pose(mechanism.layout().start_time, q, s);
     mechanism.phi(s);
     mechanism.c(s);
     let mut c = dense_rows(layout, s, rows)?;
@@ -111,7 +111,7 @@ pub(super) fn is_meant(mechanism: &Mechanism, s: &mut Scratch, q: &[f64]) -> boo
     if !unmet_rows(mechanism, q).is_empty() {
         return false;
     }
-    mechanism.pose(0.0, q, s);
+    mechanism.pose(mechanism.layout().start_time, q, s);
     let joints = mechanism.elements.constraints.iter();
     let mut axes = joints.filter_map(|joint| Parallel::of(joint, s));
     axes.all(|axes| axes.is_as_described())
@@ -181,7 +181,7 @@ pub(super) fn approach(
             damping *= FACTOR;
         }
     }
-    mechanism.pose(0.0, &q, s);
+    mechanism.pose(mechanism.layout().start_time, &q, s);
     mechanism.phi(s);
     Err(StartError::NoAssembly {
         misfits: misfits(mechanism, s, rows),

@@ -70,7 +70,7 @@ pub(super) struct Equations<'m> {
 impl<'m> Equations<'m> {
     pub(super) fn new(mechanism: &'m Mechanism, options: &StartOptions, q: &[f64]) -> Self {
         let mut s = mechanism.scratch();
-        mechanism.pose(0.0, q, &mut s);
+        mechanism.pose(mechanism.layout().start_time, q, &mut s);
         mechanism.phi(&mut s);
         mechanism.c(&mut s);
         mechanism.b(&mut s);

@@ -19,6 +19,18 @@ pub struct StartOptions {
     /// points, initial values and the zeros of joint coordinates are still computed from the pose
     /// in the definition.
     pub poses: Vec<StartPose>,
+    /// The state at which the mechanism starts, in place of `poses` and of given velocities. Reference
+    /// points and initial values are computed as for `poses`.
+    pub state: Option<State>,
+}
+
+/// Coordinates and velocities at one instant.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct State {
+    /// Coordinates, n_q values.
+    pub q: Vec<f64>,
+    /// Velocities, n_v values.
+    pub v: Vec<f64>,
 }
 
 /// The initial pose of a body that does not start at the pose given in its definition.

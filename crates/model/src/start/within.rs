@@ -153,7 +153,7 @@ fn truncated(
     let mut q = described.to_vec();
     let mut is_still = false;
     for _ in 0..ITERATIONS {
-        mechanism.pose(0.0, &q, s);
+        mechanism.pose(mechanism.layout().start_time, &q, s);
         mechanism.phi(s);
         mechanism.c(s);
         if is_still {

@@ -31,7 +31,7 @@ use crate::error::StudyError;
 use crate::question::{Answer, Control, Ending, Output, Place, Progress, Question, Writing};
 use crate::refusal::{Refusal, json};
 use crate::run_options::RunOptions;
-use crate::start::{JudgedStart, Start};
+use crate::start::{JudgedStart, Start, asked_time};
 use crate::study::Study;
 use crate::words::Block;
 use addition::AnalysedMotion;
@@ -54,12 +54,6 @@ impl Question for Analyze {
     type Answer = AnalyzeAnswer;
 
     fn answer(&self, of: &Start<'_>, control: &Control<'_>) -> Result<AnalyzeAnswer, Refusal> {
-        if !(self.at_time >= 0.0 && self.at_time.is_finite()) {
-            let time = self.at_time;
-            return Err(Refusal::input(format!(
-                "--at-time is {time}, need a time ≥ 0"
-            )));
-        }
         let with = RunOptions {
             drop: self.drop.clone(),
             ..RunOptions::default()
@@ -75,12 +69,14 @@ impl Question for Analyze {
                 &own
             }
         };
+        let start_time = judged.start_time();
+        let at_time = asked_time(self.at_time, start_time)?;
         match judged {
-            JudgedStart::Moves(study) => self.of_study(of, (judged, study), control),
+            JudgedStart::Moves(study) => self.of_study(of, (judged, study), at_time, control),
             // A mechanism that cannot move can still be analysed at the start.
-            JudgedStart::Stands(stands) if self.at_time == 0.0 && self.along.is_none() => {
+            JudgedStart::Stands(stands) if at_time == start_time && self.along.is_none() => {
                 let start = of
-                    .configuration(judged, 0.0, control, |_| ())
+                    .configuration(judged, start_time, control, |_| ())
                     .map_err(|e| of.refusal(e))?;
                 let mut document = document::of(self, of, &start, control)?;
                 document.warnings.insert(0, stands.warning.clone());
@@ -97,6 +93,7 @@ impl Analyze {
         &self,
         of: &Start<'_>,
         (judged, study): (&JudgedStart, &Study),
+        at_time: f64,
         control: &Control<'_>,
     ) -> Result<AnalyzeAnswer, Refusal> {
         let description = &study.scene.description;
@@ -105,8 +102,8 @@ impl Analyze {
         let of_configuration = || {
             let progress = |done| (control.progress)(Progress::Count("joints", done, joints));
             let found = match drop {
-                None => of.configuration(judged, self.at_time, control, progress),
-                drop => study.analyse_until(self.at_time, drop, &control.stop, progress),
+                None => of.configuration(judged, at_time, control, progress),
+                drop => study.analyse_until(at_time, drop, &control.stop, progress),
             };
             let configuration = found.map_err(|e| refused(of, e))?;
             let document = document::of(self, of, &configuration, control)?;
@@ -119,7 +116,7 @@ impl Analyze {
             None => (of_configuration(), None),
         };
         let (configuration, mut document) = of_configuration?;
-        if self.at_time == 0.0 {
+        if at_time == study.start_time() {
             let warned = study.add_warnings(&mut document);
             warned.map_err(|e| of.refusal(e))?;
         }

@@ -45,7 +45,7 @@ impl Question for Check {
         plots::check(scene, mechanism).map_err(|e| of.refusal(e))?;
         let answered = match judged.as_ref() {
             JudgedStart::Moves(study) => study.check_drives().and_then(|()| {
-                let start = of.configuration(&judged, 0.0, control, |_| ())?;
+                let start = of.configuration(&judged, judged.start_time(), control, |_| ())?;
                 let prepared = &study.prepared;
                 let answer = CheckAnswer::new(judged.parts(), &prepared.assembly.correction);
                 let mut answer = answer.moving(start.freedoms()?, &prepared.mechanism);

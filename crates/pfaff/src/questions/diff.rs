@@ -30,7 +30,7 @@ impl Question for Diff {
     fn answer(&self, of: [&Start<'_>; 2], control: &Control<'_>) -> Result<DiffAnswer, Refusal> {
         let judged = [of[0].judged(control)?, of[1].judged(control)?];
         let document = |k: usize| {
-            let start = of[k].configuration(&judged[k], 0.0, control, |_| ());
+            let start = of[k].configuration(&judged[k], judged[k].start_time(), control, |_| ());
             let document = start.and_then(|start| document_of(&start));
             document.map_err(|e| of[k].refusal(e))
         };

@@ -56,7 +56,9 @@ impl Question for Equilibrium {
         };
         let (found, there) = study.equilibrium(&options).map_err(|e| of.refusal(e))?;
         let rest = there.held_at(found.time);
-        let rest = rest.analyse(0.0, None).and_then(|rest| at_rest(&rest));
+        let rest = rest
+            .analyse(rest.start_time(), None)
+            .and_then(|rest| at_rest(&rest));
         let mut answer = EquilibriumAnswer::new(&study, &found, rest.map_err(|e| e.to_string()));
         if control.wants_files {
             let text = study.text_at_rest(&found.q);

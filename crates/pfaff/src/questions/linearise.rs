@@ -13,7 +13,7 @@ pub use answer::{LineariseAnswer, ModeOfMotion, NamedInput, NamedState, SecondOr
 
 use crate::question::{Answer, Control, Output, Place, Question, Writing};
 use crate::refusal::{Refusal, json};
-use crate::start::Start;
+use crate::start::{Start, asked_time};
 use crate::words::Block;
 
 /// Linearise at rest or in steady motion: eigenvalues, modes
@@ -82,7 +82,8 @@ impl Question for Linearise {
             coordinates: self.coordinates.clone(),
             follow: self.follow.clone(),
         };
-        let found = study.linearise_until(self.at_time, &options, control.stop);
+        let at_time = asked_time(self.at_time, study.start_time())?;
+        let found = study.linearise_until(at_time, &options, control.stop);
         let found = found.map_err(|e| of.refusal(e))?;
         let modes = found.modes();
         let mut answer = LineariseAnswer::new(study.scene.name(), &found, modes.as_deref());

@@ -14,7 +14,7 @@ use crate::configuration::requests;
 use crate::elasticity::{BoundsOptions, elasticity};
 use crate::question::{Answer, Control, Ending, Output, Place, Progress, Question, Writing};
 use crate::refusal::{Refusal, json};
-use crate::start::Start;
+use crate::start::{Start, asked_time};
 use crate::tolerance::{
     SAMPLES, ToleranceError, ToleranceOptions, ToleranceResult, ToleranceStudy, Variation,
     VariedText,
@@ -97,13 +97,15 @@ impl Question for Tolerance {
         };
         let bounds = wanted.map(|wanted| elasticity(&wanted, mechanism.layout(), &reaction));
         let bounds = bounds.transpose()?;
+        let start_time = assembled.mechanism.layout().start_time;
+        let at_time = asked_time(self.at_time, start_time)?;
         let described = assembled.scene.clone();
         let vary = (!self.vary.is_empty()).then(|| {
             let text = (of.name.as_str(), of.text.as_str());
             VariedText::new(text, of.registry, of.tolerance, self.vary.clone())
         });
         let vary = vary.transpose().map_err(refused)?;
-        let study = ToleranceStudy::varying(assembled, self.at_time, vary).map_err(refused)?;
+        let study = ToleranceStudy::varying(assembled, at_time, vary).map_err(refused)?;
         let study = study.with_bounds(described, bounds);
         let memory = study.memory(self.runs);
         of.budget.allow(memory, "keeping these samples")?;

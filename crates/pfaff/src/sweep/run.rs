@@ -51,7 +51,8 @@ impl UnvariedScene {
             decided,
             ..
         } = &study.prepared;
-        let analysis = analyse_decided(mechanism, 0.0, q, decided.as_ref()?, |_| ()).ok()?;
+        let analysis =
+            analyse_decided(mechanism, study.start_time(), q, decided.as_ref()?, |_| ()).ok()?;
         Some(Self {
             analysis: Arc::new(analysis),
             study,

@@ -296,10 +296,11 @@ impl<'r> Sweep<'r> {
             ..
         } = &study.prepared;
         let known = described.filter(|described| described.decides(&study.prepared));
+        let t = mechanism.layout().start_time;
         let analysis = match (known, decided) {
             (Some(known), _) => Arc::clone(&known.analysis),
-            (None, Some(decided)) => Arc::new(analyse_decided(mechanism, 0.0, q, decided, |_| ())?),
-            (None, None) => Arc::new(analyse(mechanism, 0.0, q)?),
+            (None, Some(decided)) => Arc::new(analyse_decided(mechanism, t, q, decided, |_| ())?),
+            (None, None) => Arc::new(analyse(mechanism, t, q)?),
         };
         let fragile = analysis.sensitivities(mechanism, q, v)?.fragile().count() as u64;
         let reactions = self.places(mechanism);

@@ -159,10 +159,10 @@ impl Nominal {
         // accuracy of these values is the accuracy that the scene states.
         let of_stated = stated.with_numbers(&mechanism.data().numbers());
         let mut at = of_stated.scratch();
-        of_stated.pose(0.0, &prepared.q, &mut at);
+        of_stated.pose(prepared.start_time(), &prepared.q, &mut at);
         let data = displaced(&of_stated, of_stated.data().blocks(&at));
         let keeps = prepared.start.keep.iter();
-        let keeps = keeps.filter(|c| c.level == KeepLevel::Position && t == 0.0);
+        let keeps = keeps.filter(|c| c.level == KeepLevel::Position && t == prepared.start_time());
         let kept_columns = keeps
             .map(|c| layout.columns(c.body).start + c.dof)
             .collect();

@@ -192,10 +192,11 @@ impl<'r> VariedText<'r> {
             return Err(failed("it has other rows".to_owned()));
         }
         let mut s = mechanism.scratch();
-        mechanism.pose(0.0, &q, &mut s);
+        let start_time = mechanism.layout().start_time;
+        mechanism.pose(start_time, &q, &mut s);
         let data = displaced(&mechanism, mechanism.data().blocks(&s));
         let mut base = nominal.base.clone();
-        if nominal.t == 0.0 {
+        if nominal.t == start_time {
             let given = mechanism.frames().given_velocities(&q);
             for (v, given) in base.v.iter_mut().zip(given) {
                 *v = given.unwrap_or(*v);

@@ -59,6 +59,14 @@ pub enum KeyError {
         /// The names of the parts of this value.
         parts: Vec<String>,
     },
+    /// A state contains full revolutions of an angle, which no key can state.
+    #[error(
+        "the angle of `{name}` includes full revolutions, which a scene cannot state; start a run at the state itself"
+    )]
+    Turns {
+        /// The joint, drive or force with the angle.
+        name: String,
+    },
     /// The key is missing in the text and cannot be added, because its table has neither a header
     /// nor braces.
     #[error("`{key}` is not in the scene; add it to the scene, with any number")]
@@ -86,6 +94,7 @@ impl KeyError {
             | Self::Index { .. }
             | Self::NotANumber { .. }
             | Self::NoRoom { .. }
+            | Self::Turns { .. }
             | Self::Repeated { .. } => const { Code::new(501) },
         }
     }

@@ -78,6 +78,58 @@ pub fn posed(scene: &Scene, poses: &[FramePose]) -> Result<String, KeyError> {
     edited(&text, edits).ok_or(KeyError::NotToml)
 }
 
+/// Returns the text of a scene that starts at a time (s), with its bodies in these poses and with
+/// these velocities of their frames, in the order of the bodies. In space, angular velocities are in
+/// ground axes.
+///
+/// ```
+/// use model::FramePose;
+/// let text = "[scene]\nname = \"drop\"\nspace = \"plane\"\n[[body]]\nname = \"bob\"\nmass = 1\ninertia = 1\n";
+/// let scene = pfaff_scene::read("drop.toml", text, &model::Registry::standard()).unwrap();
+/// let pose = FramePose::Plane { position: [0.5, 2.0], angle: 0.25 };
+/// let there = pfaff_scene::in_motion(&scene, 1.5, &[pose], &[[[1.0, 0.0, 0.0], [0.0, 0.0, 3.0]]])?;
+/// let found = pfaff_scene::read("drop.toml", &there, &model::Registry::standard()).unwrap();
+/// let body = &found.description.plane().unwrap().bodies[0];
+/// assert_eq!((body.velocity, body.angular_velocity), (Some([1.0, 0.0]), Some(3.0)));
+/// assert_eq!(found.description.plane().unwrap().start_time, 1.5);
+/// # Ok::<(), pfaff_scene::KeyError>(())
+/// ```
+///
+/// # Errors
+/// Returns the errors of [`at_rest`].
+///
+/// # Panics
+/// Panics if the number of poses differs from the number of bodies.
+pub fn in_motion(
+    scene: &Scene,
+    time: f64,
+    poses: &[FramePose],
+    velocities: &[[[f64; 3]; 2]],
+) -> Result<String, KeyError> {
+    let units = scene.units;
+    let speed = |x: &f64| with_unit(*x, (units.length, Units::SI.length), "/s");
+    let spin = |x: &f64| with_unit(*x, (units.angle, Units::SI.angle), "/s");
+    let moving = velocities.iter().zip(poses).zip(0..);
+    let values = moving.flat_map(|(([v, omega], pose), k)| {
+        let (v, omega) = match pose {
+            FramePose::Plane { .. } => (list(v[..2].iter().map(speed)), spin(&omega[2])),
+            FramePose::Space3 { .. } => (list(v.iter().map(speed)), list(omega.iter().map(spin))),
+        };
+        let key = |name: &str| format!("body[{k}].{name}");
+        [(key("velocity"), v), (key("angular_velocity"), omega)]
+    });
+    let mut values: Vec<(String, String)> = values.collect();
+    let time = number(time);
+    let text = scene.text().ok_or(KeyError::NotToml)?;
+    let root = DeTable::parse(text).map_err(|_| KeyError::NotToml)?;
+    if root.get_ref().get("start").is_some() {
+        values.push(("start.time".to_owned(), time));
+        return written(scene, poses, values);
+    }
+    let text = written(scene, poses, values)?;
+    Ok(format!("{}\n\n[start]\ntime = {time}\n", text.trim_end()))
+}
+
 /// Keys of given velocities of a body.
 const VELOCITIES: [&str; 2] = ["velocity", "angular_velocity"];
 
@@ -113,8 +165,8 @@ fn written(
 
 /// Returns the keys of a pose with their values.
 fn parts(pose: &FramePose, units: Units) -> [(&'static str, String); 2] {
-    let length = |x: &f64| with_unit(*x, units.length, Units::SI.length);
-    let angle = |x: f64| with_unit(x, units.angle, Units::SI.angle);
+    let length = |x: &f64| with_unit(*x, (units.length, Units::SI.length), "");
+    let angle = |x: f64| with_unit(x, (units.angle, Units::SI.angle), "");
     match pose {
         FramePose::Plane {
             position,
@@ -141,12 +193,12 @@ fn list(items: impl Iterator<Item = String>) -> String {
 }
 
 /// Writes a number with its SI unit, if the unit `bare` of bare numbers in the scene is not the SI
-/// unit.
-fn with_unit(x: f64, bare: &str, si: &str) -> String {
+/// unit. `per` is the rest of the unit.
+fn with_unit(x: f64, (bare, si): (&str, &str), per: &str) -> String {
     if bare == si {
         number(x)
     } else {
-        format!("\"{} {si}\"", number(x))
+        format!("\"{} {si}{per}\"", number(x))
     }
 }
 

@@ -81,7 +81,7 @@ impl<'a, F: FnMut(f64) -> State> Path<'a, F> {
     ) -> Result<Self, AlongError> {
         let layout = mechanism.layout();
         let first = motion(times[0]);
-        state::check(mechanism, times[0], &first.q, &first.v)?;
+        state::check_state(mechanism, times[0], &first.q, &first.v)?;
         let mut path = Self {
             mechanism,
             motion,
@@ -152,7 +152,7 @@ impl<'a, F: FnMut(f64) -> State> Path<'a, F> {
     /// Returns the state at time t, moved onto the constraints.
     pub(super) fn at(&mut self, t: f64) -> Result<Point, AlongError> {
         let State { q, v } = (self.motion)(t);
-        state::check(self.mechanism, t, &q, &v)?;
+        state::check_state(self.mechanism, t, &q, &v)?;
         let q = nearest_configuration(self.mechanism, t, &self.holonomic, &q, Metric::Mass)
             .map_err(|source| AlongError::OffConstraints { time: t, source })?;
         let s = evaluated(self.mechanism, t, &q);

@@ -57,10 +57,11 @@ pub fn contradicting_drives_along(
     if is_beyond(mechanism) {
         return Ok(None);
     }
-    let ranks = StatedRanks::at(mechanism, 0.0, start)?;
+    let t0 = mechanism.layout().start_time;
+    let ranks = StatedRanks::at(mechanism, t0, start)?;
     // Drives that are independent at the start do not contradict each other, because the rank is
     // lower only at single instants along the motion.
-    match JointsFirst::of_velocities(mechanism, 0.0, start, ranks.as_ref())? {
+    match JointsFirst::of_velocities(mechanism, t0, start, ranks.as_ref())? {
         Some(rows) if rows.has_redundant_drives(mechanism) => {}
         _ => return Ok(None),
     }
@@ -68,7 +69,7 @@ pub fn contradicting_drives_along(
     let elsewhere = OnceCell::new();
     let elsewhere = || {
         elsewhere
-            .get_or_init(|| generic(mechanism, 0.0, start))
+            .get_or_init(|| generic(mechanism, t0, start))
             .as_ref()
     };
     walk(mechanism, start, t_end, ranks.as_ref(), |t, q| {
@@ -123,18 +124,19 @@ fn walk(
     if is_beyond(mechanism) {
         return Ok(());
     }
+    let t0 = mechanism.layout().start_time;
     let mut walk = DriveWalk {
         mechanism,
         ranks,
         size: scene_size(mechanism, start),
-        t: 0.0,
+        t: t0,
         q: start.to_vec(),
         steps: 0,
     };
     for k in 1..=DRIVE_POSITIONS {
         let to = match k {
             DRIVE_POSITIONS => t_end,
-            k => t_end * f64::from(k) / f64::from(DRIVE_POSITIONS),
+            k => t0 + (t_end - t0) * f64::from(k) / f64::from(DRIVE_POSITIONS),
         };
         // If the continuation ends early, drives that contradict each other already differ at the
         // last position.

@@ -17,7 +17,7 @@ use crate::limits::{
     LIMIT_STEPS,
 };
 use crate::pose::velocity_units;
-use crate::state::check;
+use crate::state::check_state;
 use crate::words;
 
 /// Drives that cannot continue, because no configuration exists beyond their limit position.
@@ -132,7 +132,7 @@ pub fn drive_limit(
     kept: &[usize],
     (t, q, v): (f64, &[f64], &[f64]),
 ) -> Option<DriveLimit> {
-    check(mechanism, t, q, v).ok()?;
+    check_state(mechanism, t, q, v).ok()?;
     let curve = Curve::new(mechanism, kept, t, q)?;
     let mut at = CurvePoint {
         t,

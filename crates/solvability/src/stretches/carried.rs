@@ -212,7 +212,7 @@ impl<'m> CarriedVerdicts<'m> {
     fn verdicts(&mut self, at: &CarriedState<'_>) -> Result<Verdicts, AnalysisError> {
         let mut verdicts = Vec::with_capacity(self.recorder.numbers());
         let forms = self.forms(at)?;
-        let known = if at.t == 0.0 {
+        let known = if at.t == self.mechanism.layout().start_time {
             self.at_start
         } else {
             self.accuracy

@@ -80,8 +80,8 @@ pub(super) fn of(
         document.answers.choices.push(made);
     }
     if !choices.is_empty() {
-        let State { q, v } = &configuration.state;
-        document.answers.loads = loads_at(configuration.mechanism, asked.at_time, q, v);
+        let (time, State { q, v }) = (document.configuration.time, &configuration.state);
+        document.answers.loads = loads_at(configuration.mechanism, time, q, v);
     }
     Ok(document)
 }

@@ -43,7 +43,10 @@ pub(super) fn add(
 ) -> Result<(), StudyError> {
     let is_wanted = asked.remedies || of.mechanism.layout().rows() <= ROWS;
     let is_open = document.ranks.redundancy > 0;
-    if !(is_wanted && is_open) || asked.at_time != 0.0 || asked.drop.is_some() {
+    if !(is_wanted && is_open)
+        || document.configuration.time != of.mechanism.layout().start_time
+        || asked.drop.is_some()
+    {
         return Ok(());
     }
     let remedies = &mut document.answers.remedies;
@@ -73,7 +76,7 @@ pub(crate) fn of_run(start: &Start<'_>, study: &Study) -> Result<Vec<RemedyDocum
     if study.prepared.decision.redundancy == 0 || mechanism.layout().rows() > ROWS {
         return Ok(Vec::new());
     }
-    let of = study.analyse(0.0, None)?;
+    let of = study.analyse(study.start_time(), None)?;
     // Other parts of the document do not influence the remedies.
     let generic = of.generic();
     let mut document = AnalysisDocument::new(of.scene.name(), &of.analysis, generic.as_ref());
