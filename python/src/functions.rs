@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use numpy::{AllowTypeChange, PyArray1, PyArray2, PyArrayLikeDyn, PyUntypedArrayMethods};
+use pfaff::Study;
 use pfaff::model::description::SetLawError;
 use pfaff::model::{
     AnyDescription, BodyRef, BodyState, CallError, Law, SpaceKind, Wrench, words::rounded,
@@ -10,6 +11,7 @@ use pfaff::model::{
 use pyo3::prelude::*;
 use pyo3::types::{PyFloat, PyTuple};
 
+use crate::control::control;
 use crate::fault::{Fault, wrong};
 use crate::hearing::Hearing;
 use crate::options::unknown;
@@ -18,11 +20,13 @@ use crate::options::unknown;
 pub(crate) struct Functions {
     pub(crate) drives: Vec<(String, Py<PyAny>)>,
     pub(crate) forces: Vec<(String, Py<PyAny>)>,
+    /// A function of the whole state.
+    pub(crate) controller: Option<Py<PyAny>>,
 }
 
 impl Functions {
     pub(crate) fn is_empty(&self) -> bool {
-        self.drives.is_empty() && self.forces.is_empty()
+        self.drives.is_empty() && self.forces.is_empty() && self.controller.is_none()
     }
 
     /// Adds the functions to a description. The functions are called until a function raises an
@@ -30,8 +34,12 @@ impl Functions {
     pub(crate) fn put_into(
         self,
         description: &mut AnyDescription,
+        study: &Study,
         hearing: &Arc<Hearing>,
     ) -> Result<(), Fault> {
+        if let Some(controller) = self.controller {
+            control(controller, study, description, hearing)?;
+        }
         for (name, function) in self.drives {
             let call = Call::new(format!("the function of drive `{name}`"), function, hearing);
             let law = Law::called(move |at| {
@@ -69,7 +77,7 @@ impl Functions {
 }
 
 /// A function that a run calls.
-struct Call {
+pub(crate) struct Call {
     /// Description for messages, such as "the function of drive `motor`".
     subject: String,
     function: Py<PyAny>,
@@ -77,7 +85,7 @@ struct Call {
 }
 
 impl Call {
-    fn new(subject: String, function: Py<PyAny>, hearing: &Arc<Hearing>) -> Self {
+    pub(crate) fn new(subject: String, function: Py<PyAny>, hearing: &Arc<Hearing>) -> Self {
         Self {
             subject,
             function,
@@ -87,7 +95,7 @@ impl Call {
 
     /// Calls the function with its arguments, and converts the result by `read`. An exception in
     /// the function ends the run.
-    fn value<A, T>(
+    pub(crate) fn value<A, T>(
         &self,
         time: f64,
         arguments: impl FnOnce(Python<'_>) -> PyResult<A>,
@@ -116,7 +124,7 @@ impl Call {
 }
 
 /// Reads one number: a float, or a value that NumPy converts to a float.
-fn number(found: &Bound<'_, PyAny>) -> Result<f64, CallError> {
+pub(crate) fn number(found: &Bound<'_, PyAny>) -> Result<f64, CallError> {
     if let Ok(found) = found.cast_exact::<PyFloat>() {
         return Ok(found.value());
     }
@@ -131,7 +139,7 @@ fn number(found: &Bound<'_, PyAny>) -> Result<f64, CallError> {
 }
 
 /// Reads the force and the torque from an array.
-fn wrench(space: SpaceKind, found: &Bound<'_, PyAny>) -> Result<Wrench, CallError> {
+pub(crate) fn wrench(space: SpaceKind, found: &Bound<'_, PyAny>) -> Result<Wrench, CallError> {
     let (n, needed) = match space {
         SpaceKind::Space3 => (6, "6 numbers: a force and a torque"),
         _ => (3, "3 numbers: a force, 2, and a torque"),
@@ -170,7 +178,7 @@ fn other(found: &Bound<'_, PyAny>, needed: &str) -> CallError {
 
 /// Returns the time, then position, rotation, velocity, angle and angular velocity of a body. In
 /// the plane, vectors have two components.
-fn state<'py>(py: Python<'py>, space: SpaceKind, at: &BodyState) -> PyResult<Arguments> {
+pub(crate) fn state<'py>(py: Python<'py>, space: SpaceKind, at: &BodyState) -> PyResult<Arguments> {
     let n = space.n_translations();
     let vector = |x: &[f64; 3]| PyArray1::from_slice(py, &x[..n]).into_any().unbind();
     let rows: Vec<Vec<f64>> = at.rotation[..n].iter().map(|r| r[..n].to_vec()).collect();
@@ -184,4 +192,4 @@ fn state<'py>(py: Python<'py>, space: SpaceKind, at: &BodyState) -> PyResult<Arg
     Ok((at.time, place, turn, angle, velocity, spin))
 }
 
-type Arguments = (f64, Py<PyAny>, Py<PyAny>, f64, Py<PyAny>, Py<PyAny>);
+pub(crate) type Arguments = (f64, Py<PyAny>, Py<PyAny>, f64, Py<PyAny>, Py<PyAny>);

@@ -19,8 +19,8 @@ use pyo3::prelude::*;
 
 use crate::fault::{Fault, guarded, raised_by};
 
-/// Time (ms) between two checks for signals.
-const BETWEEN: u64 = 20;
+/// Time between two checks for signals.
+pub(crate) const BETWEEN: Duration = Duration::from_millis(20);
 
 /// Time within which work has to end after Ctrl-C. Work that calls the check often needs less time,
 /// and closes its files before it ends. Other work is abandoned: its thread ends when the work or
@@ -29,7 +29,7 @@ const PATIENCE: Duration = Duration::from_millis(500);
 
 /// Stack size (bytes) of a thread for work, equal to the stack size of the main thread on Linux.
 /// Only the used part of the stack needs memory.
-const STACK: usize = 8 << 20;
+pub(crate) const STACK: usize = 8 << 20;
 
 /// Does work on a separate thread, without the interpreter, so that other Python threads run. The
 /// calling thread checks for signals until the work is done, because Python receives signals only
@@ -56,7 +56,7 @@ pub(crate) fn heard<T: Send + 'static>(
             .map_err(|e| Refusal::stopped(format!("cannot start a thread: {e}")))?;
         let mut until: Option<Instant> = None;
         loop {
-            match waits.recv_timeout(Duration::from_millis(BETWEEN)) {
+            match waits.recv_timeout(BETWEEN) {
                 Ok(ended) => return Ok(ended),
                 Err(RecvTimeoutError::Disconnected) => {
                     return Err(Refusal::stopped("its thread has ended".to_owned()).into());
@@ -147,7 +147,7 @@ impl Hearing {
         Self {
             caller: thread::current().id(),
             begun: Instant::now(),
-            next: AtomicU64::new(BETWEEN),
+            next: AtomicU64::new(BETWEEN.as_millis() as u64),
             ends: AtomicBool::new(false),
             raised: Mutex::new(None),
         }
@@ -162,7 +162,8 @@ impl Hearing {
         if now < self.next.load(Ordering::Relaxed) || thread::current().id() != self.caller {
             return false;
         }
-        self.next.store(now + BETWEEN, Ordering::Relaxed);
+        self.next
+            .store(now + BETWEEN.as_millis() as u64, Ordering::Relaxed);
         // Python receives signals only on its main thread; on other threads this has no effect.
         if let Err(raised) = Python::attach(|py| py.check_signals()) {
             self.end(Some(raised));

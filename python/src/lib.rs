@@ -6,18 +6,22 @@
 //! | --- | --- |
 //! | `fault` | errors and panics become exceptions |
 //! | `hearing` | Ctrl-C and callbacks during a run |
+//! | `control` | the state of a mechanism, and a Python function that controls a run |
 //! | `functions` | Python functions as laws of drives and as forces on bodies |
 //! | `scene` | the text of a scene, and the results that are computed from it |
 //! | `options` | conversion of texts and numbers from Python to options of the library |
 //! | `run` | the rows of a run as arrays |
+//! | `simulator` | a run that is advanced step by step |
 //! | `sweep` | many runs in shards, and their columns |
 
+mod control;
 mod fault;
 mod functions;
 mod hearing;
 mod options;
 mod run;
 mod scene;
+mod simulator;
 mod sweep;
 
 /// The private module.
@@ -26,9 +30,13 @@ mod _pfaff {
     #[pymodule_export]
     use super::fault::{input_code, panics};
     #[pymodule_export]
+    use super::control::Kinematics;
+    #[pymodule_export]
     use super::run::Run;
     #[pymodule_export]
     use super::scene::{Scene, explain, nearest, templates};
+    #[pymodule_export]
+    use super::simulator::Simulator;
     #[pymodule_export]
     use super::sweep::{Sweep, forget_crashed, merge, sweep_columns};
 

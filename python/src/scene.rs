@@ -30,6 +30,7 @@ use pfaff::work_precision::provenance::{date, machine};
 use pfaff::{AssembledScene, RunOptions, Study, StudyError, source};
 use pyo3::prelude::*;
 
+use crate::control::Kinematics;
 use crate::fault::{Fault, wrong};
 use crate::functions::Functions;
 use crate::hearing::{Hearing, heard, heard_here};
@@ -90,7 +91,7 @@ impl Source {
     }
 
     /// Returns the scene with its start. The scene is read and assembled only once.
-    fn judged(
+    pub(crate) fn judged(
         &self,
         (tolerance, budget): (Tolerance, Budget),
         drop: Option<Vec<usize>>,
@@ -110,16 +111,35 @@ impl Source {
     fn with_functions(
         &self,
         functions: Functions,
+        start: Option<&(f64, Vec<f64>, Vec<f64>)>,
         (options, overrides): (&RunKeywords, &RunOptions),
         hearing: &Arc<Hearing>,
     ) -> Result<Study, Fault> {
-        let mut assembled = self.assembled(options.common.tolerance(), options.common.budget()?)?;
-        if !functions.is_empty() {
-            let mut scene = assembled.scene;
-            functions.put_into(&mut scene.description, hearing)?;
-            assembled = AssembledScene::build(scene).map_err(|e| self.fault(e))?;
+        let within = (options.common.tolerance(), options.common.budget()?);
+        if functions.is_empty() && start.is_none() {
+            let assembled = self.assembled(within.0, within.1)?;
+            return assembled.prepare(overrides).map_err(|e| self.fault(e));
         }
-        assembled.prepare(overrides).map_err(|e| self.fault(e))
+        let judged = self.judged(within, overrides.drop.clone())?;
+        let study = self.started(judged.study()?, start)?;
+        let mut scene = study.scene.clone();
+        functions.put_into(&mut scene.description, &study, hearing)?;
+        let own = AssembledScene::build(scene).and_then(|own| own.prepare(overrides));
+        let own = own.map_err(|e| self.fault(e))?;
+        let started = start.map(|_| own.at(study.start_time(), &study.prepared.q, &study.prepared.v));
+        Ok(started.transpose().map_err(|e| self.fault(e))?.unwrap_or(own))
+    }
+
+    /// Returns a study with this start, or with its own start.
+    pub(crate) fn started(
+        &self,
+        study: &Study,
+        start: Option<&(f64, Vec<f64>, Vec<f64>)>,
+    ) -> Result<Study, Fault> {
+        let Some((t, q, v)) = start else {
+            return Ok(study.clone());
+        };
+        study.at(*t, q, v).map_err(|e| self.fault(e))
     }
 
     /// Reads choices in the syntax of the command.
@@ -148,22 +168,23 @@ impl Source {
             numbers_of_choice,
             choices,
             functions,
+            start,
             on_event,
             on_row,
         } = asked;
         let overrides = options.run()?;
         let budget = options.common.budget()?;
         let (judged, own);
-        let study = if functions.is_empty() {
+        let study = if functions.is_empty() && start.is_none() {
             judged = self.judged((options.common.tolerance(), budget), overrides.drop.clone())?;
             judged.study()?
         } else {
-            own = self.with_functions(functions, (&options, &overrides), hearing)?;
+            own = self.with_functions(functions, start.as_ref(), (&options, &overrides), hearing)?;
             &own
         };
         let of_run = study.memory(self.text.len()).map_err(|e| self.fault(e))?;
         budget.allow(of_run, "this run")?;
-        let start = study.analyse(0.0, None).map_err(|e| self.fault(e))?;
+        let start = study.analyse(study.start_time(), None).map_err(|e| self.fault(e))?;
         options.check_names(&start)?;
         let mut wanted = options.wanted();
         for choice in self.choices(&choices, study)? {
@@ -192,7 +213,7 @@ impl Source {
         };
         let space = mechanism.space();
         let mut room = Room {
-            expected: (motion.t_end / motion.output_step).ceil() + 1.0,
+            expected: ((motion.t_end - study.start_time()) / motion.output_step).ceil() + 1.0,
             budget,
             of_run,
             refused: None,
@@ -280,6 +301,7 @@ struct RunAsked {
     numbers_of_choice: bool,
     choices: Vec<String>,
     functions: Functions,
+    start: Option<(f64, Vec<f64>, Vec<f64>)>,
     on_event: Option<Py<PyAny>>,
     on_row: Option<Py<PyAny>>,
 }
@@ -558,7 +580,7 @@ impl Scene {
             let drop = rows_from_zero(drop.as_deref())?;
             let judged = own.judged((common.tolerance(), common.budget()?), drop)?;
             let state = match judged.as_ref() {
-                JudgedStart::Stands(stands) if t == 0.0 => stands.kept.state.clone(),
+                JudgedStart::Stands(stands) if t == judged.start_time() => stands.kept.state.clone(),
                 judged => {
                     let found = judged.study()?.state_until(t, &|| hearing.has_ended());
                     found.map_err(|e| own.fault(e))?
@@ -572,7 +594,7 @@ impl Scene {
     /// of the run have the values for the independent rows of the run; otherwise they are NaN.
     /// `choices` have separate arrays. `drives` are functions of time, joint coordinate and rate
     /// that replace laws; `forces` are functions of the states of bodies. Each has its name.
-    #[pyo3(signature = (options, numbers_of_choice, choices, on_event, on_row, drives, forces))]
+    #[pyo3(signature = (options, numbers_of_choice, choices, on_event, on_row, drives, forces, controller, start))]
     #[allow(clippy::too_many_arguments)]
     fn simulate(
         &self,
@@ -584,13 +606,20 @@ impl Scene {
         on_row: Option<Py<PyAny>>,
         drives: Vec<(String, Py<PyAny>)>,
         forces: Vec<(String, Py<PyAny>)>,
+        controller: Option<Py<PyAny>>,
+        start: Option<(f64, Vec<f64>, Vec<f64>)>,
     ) -> PyResult<Run> {
         let own = Arc::clone(&self.0);
         let asked = RunAsked {
             options,
             numbers_of_choice,
             choices,
-            functions: Functions { drives, forces },
+            functions: Functions {
+                drives,
+                forces,
+                controller,
+            },
+            start,
             on_event,
             on_row,
         };
@@ -613,7 +642,7 @@ impl Scene {
     /// Runs the scene and writes the files of the command into a directory; returns the summary.
     /// With `until` the run ends at the row of this time (s), like a run that was requested to end
     /// there.
-    #[pyo3(signature = (directory, options, choices, until, drives, forces))]
+    #[pyo3(signature = (directory, options, choices, until, drives, forces, controller, start))]
     #[allow(clippy::too_many_arguments)]
     fn simulate_into(
         &self,
@@ -624,13 +653,19 @@ impl Scene {
         until: Option<f64>,
         drives: Vec<(String, Py<PyAny>)>,
         forces: Vec<(String, Py<PyAny>)>,
+        controller: Option<Py<PyAny>>,
+        start: Option<(f64, Vec<f64>, Vec<f64>)>,
     ) -> PyResult<String> {
         let own = Arc::clone(&self.0);
-        let functions = Functions { drives, forces };
+        let functions = Functions {
+            drives,
+            forces,
+            controller,
+        };
         let is_alone = functions.is_empty();
         let work = move |hearing: &Arc<Hearing>| {
             let overrides = options.run()?;
-            let mut study = own.with_functions(functions, (&options, &overrides), hearing)?;
+            let mut study = own.with_functions(functions, start.as_ref(), (&options, &overrides), hearing)?;
             if let (Some(step), Some(motion)) = (options.output_step, &mut study.options) {
                 motion.output_step = step;
             }
@@ -660,6 +695,29 @@ impl Scene {
         } else {
             heard_here(py, work)
         }
+    }
+
+    /// Returns the text of the scene that starts at a time, coordinates and velocities.
+    fn started_text(&self, py: Python<'_>, t: f64, q: Vec<f64>, v: Vec<f64>) -> PyResult<Self> {
+        let own = Arc::clone(&self.0);
+        let text = heard(py, move |_| {
+            let judged = own.judged((Tolerance::default(), budget(None)?), None)?;
+            let study = judged.study()?;
+            pfaff::solvability::check_state(&study.prepared.mechanism, t, &q, &v)
+                .map_err(|e| wrong(e.to_string()))?;
+            let text = study.text_at(t, &q, &v);
+            Ok(text.map_err(|e| Refusal::input(e.to_string()).coded(e.code()))?)
+        })?;
+        Ok(Self::of(self.0.name.clone(), text))
+    }
+
+    /// Returns positions, joint coordinates and measures at any state.
+    fn kinematics(&self, py: Python<'_>) -> PyResult<Kinematics> {
+        let own = Arc::clone(&self.0);
+        heard(py, move |_| {
+            let judged = own.judged((Tolerance::default(), budget(None)?), None)?;
+            Ok(Kinematics::of(judged.parts().1))
+        })
     }
 
     /// Returns C, the diagonal of M, Γ, Q, b and Φ at coordinates and velocities; `None` selects

@@ -33,6 +33,8 @@ from ._pfaff import __version__, explain
 from ._run import BodyMotion, ChosenReactions, Event, Load, Reaction, Run
 from ._samples import Samples
 from ._scene import Matrices, Scene, templates
+from ._simulator import Simulator
+from ._state import ReactionNumber, State
 from .cluster import SweepResult
 
 __all__ = [
@@ -54,10 +56,13 @@ __all__ = [
     "Matrices",
     "Place",
     "Reaction",
+    "ReactionNumber",
     "Run",
     "Samples",
     "Scene",
     "SceneError",
+    "Simulator",
+    "State",
     "SweepResult",
     "Verdict",
     "WorkPrecision",

@@ -8,12 +8,44 @@ from _typeshed import Incomplete, SupportsGetItem
 from os import PathLike
 from typing import Any, Final, SupportsFloat, SupportsIndex, final
 
-__all__ = ["__version__", "Run", "Scene", "Sweep", "_panics", "explain", "forget_crashed", "input_code", "merge", "nearest", "sweep_columns", "templates"]
+__all__ = ["__version__", "Kinematics", "Run", "Scene", "Simulator", "Sweep", "_panics", "explain", "forget_crashed", "input_code", "merge", "nearest", "sweep_columns", "templates"]
 
 __version__: Final[str]
 """
 The version of the package.
 """
+
+@final
+class Kinematics:
+    """
+    The positions, joint coordinates and measures of a mechanism at any state.
+    """
+    def body(self, /, body: SupportsIndex, q: SupportsGetItem[int, SupportsFloat | SupportsIndex], v: SupportsGetItem[int, SupportsFloat | SupportsIndex]) -> tuple[float, Any, Any, float, Any, Any]:
+        """
+        The state of the centre of mass of a body.
+        """
+    def coordinates(self, /, t: SupportsFloat | SupportsIndex, q: SupportsGetItem[int, SupportsFloat | SupportsIndex], v: SupportsGetItem[int, SupportsFloat | SupportsIndex]) -> list[list[float]]:
+        """
+        The joint coordinates of the drives by laws and their rates.
+        """
+    def measures(self, /, q: SupportsGetItem[int, SupportsFloat | SupportsIndex], v: SupportsGetItem[int, SupportsFloat | SupportsIndex]) -> list[list[float]]:
+        """
+        The measures and their rates.
+        """
+    def names(self, /) -> list[list[str]]:
+        """
+        The names of the bodies, of the drives by laws with the springs on joint coordinates, and of
+        the measures.
+        """
+    @property
+    def start_time(self, /) -> float:
+        """
+        The time of the start (s).
+        """
+    def words(self, /) -> list[list[str]]:
+        """
+        What each coordinate and each velocity is, in words.
+        """
 
 @final
 class Run:
@@ -74,6 +106,10 @@ class Scene:
         Converts a robot model to a scene. Returns the scene, its remarks, and the omitted elements
         as pairs of kind and subject.
         """
+    def kinematics(self, /) -> Kinematics:
+        """
+        Returns positions, joint coordinates and measures at any state.
+        """
     def matrices(self, /, q: SupportsGetItem[int, SupportsFloat | SupportsIndex] | None, v: SupportsGetItem[int, SupportsFloat | SupportsIndex] | None, t: SupportsFloat | SupportsIndex, max_memory: SupportsIndex | str | None) -> tuple[Incomplete, Incomplete, Incomplete, Incomplete, Incomplete, Incomplete]:
         """
         Returns C, the diagonal of M, Γ, Q, b and Φ at coordinates and velocities; `None` selects
@@ -91,18 +127,22 @@ class Scene:
         """
         Returns the scene of a template.
         """
-    def simulate(self, /, options: Incomplete, numbers_of_choice: bool, choices: SupportsGetItem[int, str], on_event: Any | None, on_row: Any | None, drives: SupportsGetItem[int, tuple[str, Any]], forces: SupportsGetItem[int, tuple[str, Any]]) -> Run:
+    def simulate(self, /, options: Incomplete, numbers_of_choice: bool, choices: SupportsGetItem[int, str], on_event: Any | None, on_row: Any | None, drives: SupportsGetItem[int, tuple[str, Any]], forces: SupportsGetItem[int, tuple[str, Any]], controller: Any | None, start: tuple[SupportsFloat | SupportsIndex, SupportsGetItem[int, SupportsFloat | SupportsIndex], SupportsGetItem[int, SupportsFloat | SupportsIndex]] | None) -> Run:
         """
         Runs the scene. With `numbers_of_choice`, numbers that are not determined on their stretch
         of the run have the values for the independent rows of the run; otherwise they are NaN.
         `choices` have separate arrays. `drives` are functions of time, joint coordinate and rate
         that replace laws; `forces` are functions of the states of bodies. Each has its name.
         """
-    def simulate_into(self, /, directory: str | PathLike[str], options: Incomplete, choices: SupportsGetItem[int, str], until: SupportsFloat | SupportsIndex | None, drives: SupportsGetItem[int, tuple[str, Any]], forces: SupportsGetItem[int, tuple[str, Any]]) -> str:
+    def simulate_into(self, /, directory: str | PathLike[str], options: Incomplete, choices: SupportsGetItem[int, str], until: SupportsFloat | SupportsIndex | None, drives: SupportsGetItem[int, tuple[str, Any]], forces: SupportsGetItem[int, tuple[str, Any]], controller: Any | None, start: tuple[SupportsFloat | SupportsIndex, SupportsGetItem[int, SupportsFloat | SupportsIndex], SupportsGetItem[int, SupportsFloat | SupportsIndex]] | None) -> str:
         """
         Runs the scene and writes the files of the command into a directory; returns the summary.
         With `until` the run ends at the row of this time (s), like a run that was requested to end
         there.
+        """
+    def started_text(self, /, t: SupportsFloat | SupportsIndex, q: SupportsGetItem[int, SupportsFloat | SupportsIndex], v: SupportsGetItem[int, SupportsFloat | SupportsIndex]) -> Scene:
+        """
+        Returns the text of the scene that starts at a time, coordinates and velocities.
         """
     def state(self, /, t: SupportsFloat | SupportsIndex, common: Incomplete, drop: SupportsGetItem[int, SupportsIndex] | None) -> tuple[list[float], list[float]]:
         """
@@ -119,6 +159,45 @@ class Scene:
     def with_settings(self, /, keys: SupportsGetItem[int, str], expressions: SupportsGetItem[int, str]) -> Scene:
         """
         Returns the same scene with other numbers or expressions.
+        """
+
+@final
+class Simulator:
+    """
+    A run that is advanced step by step.
+    """
+    def __new__(cls, /, scene: Scene, options: Incomplete, start: tuple[SupportsFloat | SupportsIndex, SupportsGetItem[int, SupportsFloat | SupportsIndex], SupportsGetItem[int, SupportsFloat | SupportsIndex]] | None) -> Simulator:
+        """
+        Starts a run at the start of a scene, or at a time, coordinates and velocities.
+        """
+    def command(self, /, drive: str, effort: SupportsFloat | SupportsIndex) -> None:
+        """
+        Commands a drive by a law: its force or torque keeps this value until it is changed.
+        """
+    def commands(self, /) -> list[tuple[str, float]]:
+        """
+        The commanded drives with their values.
+        """
+    def evaluations(self, /) -> int:
+        """
+        The number of evaluations of accelerations by all steps since the last reset.
+        """
+    def reactions(self, /) -> tuple[str, list[list[float]]]:
+        """
+        The verdicts at the current state as JSON, and all values of the reactions of each joint for
+        the independent rows of the run.
+        """
+    def reset(self, /, t: SupportsFloat | SupportsIndex, q: SupportsGetItem[int, SupportsFloat | SupportsIndex], v: SupportsGetItem[int, SupportsFloat | SupportsIndex]) -> None:
+        """
+        Continues at another time (s), with other coordinates and velocities.
+        """
+    def state(self, /) -> tuple[float, Incomplete, Incomplete]:
+        """
+        The time (s), the coordinates and the velocities.
+        """
+    def step(self, /, to: SupportsFloat | SupportsIndex) -> list[str]:
+        """
+        Advances the run to a time (s). Returns the events of the step as JSON.
         """
 
 @final

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+import pickle
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, TypeVar
@@ -11,8 +12,10 @@ from typing import TYPE_CHECKING, Any, TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
+from . import _arguments as arguments
 from . import _pfaff
-from ._errors import ComputationError, unknown
+from ._errors import ComputationError, unknown, wrong
+from ._state import State
 
 if TYPE_CHECKING:
     from ._scene import Scene
@@ -21,6 +24,9 @@ Array = NDArray[np.float64]
 
 INTERRUPTED = "P0008"
 """Code of a run that a callback or a signal has ended."""
+
+_SAME_TIME = 1e-12
+"""Relative difference of times that differ only by rounding."""
 
 
 @dataclass(frozen=True)
@@ -218,6 +224,7 @@ class Run:
         self, of: _pfaff.Run, scene: Scene, options: dict[str, Any], is_chosen: bool = False
     ) -> None:
         self._options = options
+        self._missing: list[str] = []
         (trajectory, columns), (reactions, of_reactions), (loads, of_loads) = of.tables()
         self.choices: list[ChosenReactions] = [
             ChosenReactions(name, numbers, of_reactions) for name, numbers in of.chosen()
@@ -270,6 +277,12 @@ class Run:
     def _seal(self) -> None:
         for array in (self.t, self.q, self.v, self.trajectory, self.reactions, self.loads):
             array.flags.writeable = False
+
+    def __getstate__(self) -> dict[str, Any]:
+        options = dict(self._options)
+        missing = [name for name in _FUNCTIONS if not _can_pickle(options.get(name))]
+        options.update(dict.fromkeys(missing))
+        return {**self.__dict__, "_options": options, "_missing": [*self._missing, *missing]}
 
     def __setstate__(self, state: dict[str, Any]) -> None:
         self.__dict__.update(state)
@@ -340,6 +353,23 @@ class Run:
         """Returns the values of a group of the scene; NaN for values that are not determined."""
         return _named("group with numbers", name, self._groups)
 
+    def state(self, row: int) -> State:
+        """Returns the state of a row, counted from 0; negative numbers count from the end."""
+        kinematics = self.scene._of.kinematics()
+        return State(kinematics, float(self.t[row]), self.q[row], self.v[row])
+
+    def scene_at(self, t: float) -> Scene:
+        """Returns the scene that starts at a row of this run, given by its time (s).
+
+        The run of this scene is the rest of the motion: prescribed motions continue.
+        """
+        wanted = arguments.finite("t", t)
+        row = int(np.argmin(np.abs(self.t - wanted)))
+        nearest = float(self.t[row])
+        if abs(nearest - wanted) > _SAME_TIME * max(1.0, abs(wanted)):
+            raise wrong(f"t is {wanted}, and no row has this time; the nearest row is at {nearest}")
+        return self.scene.starting_at(self.state(row))
+
     def report(self, path: str | os.PathLike[str]) -> None:
         """Writes the page of this run for any browser.
 
@@ -347,6 +377,11 @@ class Run:
         same time, even if the run stopped or a callback ended it. The functions of drives and
         bodies are called again.
         """
+        if self._missing:
+            names = " and ".join(f"`{name}`" for name in self._missing)
+            raise wrong(
+                f"the page repeats the run, and {names} could not be pickled with it: run the scene again"
+            )
         stopped = self.document["code"] not in (None, INTERRUPTED)
         until = float(self.t[-1]) if self.partial and not stopped else None
         try:
@@ -410,6 +445,18 @@ class Run:
 
     def _repr_html_(self) -> str:
         return f"<p>{len(self.t)} rows</p>{self.scene._repr_html_()}"
+
+
+_FUNCTIONS = ("drives", "forces", "controller")
+"""Options of a run that may contain functions."""
+
+
+def _can_pickle(option: Any) -> bool:
+    try:
+        pickle.dumps(option)
+    except (pickle.PicklingError, AttributeError, TypeError):
+        return False
+    return True
 
 
 def _heading(owner: str, number: str) -> str:

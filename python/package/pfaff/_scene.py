@@ -20,6 +20,7 @@ from ._errors import wrong, wrong_type
 from ._functions import BodyForce, DriveLaw, of_bodies, of_drives
 from ._questions import Questions
 from ._run import Event, Run
+from ._state import Controller, StartArgument, State, of_controller, of_start
 from .cluster import SweepResult, Vary, sweep
 
 Array = NDArray[np.float64]
@@ -282,6 +283,8 @@ class Scene(Questions):
         bounds: bool | Bounds = False,
         drives: Mapping[str, DriveLaw] | None = None,
         forces: Mapping[str, BodyForce] | None = None,
+        controller: Controller | None = None,
+        start: StartArgument | None = None,
         on_event: Callable[[Event], object] | None = None,
         on_row: Callable[[float], object] | None = None,
     ) -> Run:
@@ -309,6 +312,11 @@ class Scene(Questions):
         Functions are called at stages of steps, not in the order of time, and must return the same
         value for the same state. Methods that need derivatives reject them. An exception in a
         function ends the run and is raised.
+
+        ``controller`` is a function ``f(t, state)`` of the whole :class:`State`. It returns a
+        dictionary with forces and torques of drives, and with forces and torques on bodies.
+        ``start`` is a state, or time, coordinates and velocities, at which the run starts.
+        Prescribed motions continue at this time.
         """
         options = _options(
             t_end=t_end,
@@ -333,9 +341,14 @@ class Scene(Questions):
             arguments.function("on_event", on_event, "an event")
         told = None if on_event is None else lambda text: on_event(Event(**json.loads(text)))
         laws, pushes = of_drives(drives), of_bodies(forces)
-        of = self._of.simulate(_native(options), kept, choices, told, on_row, laws, pushes)
+        whole = of_controller(controller, self._of.kinematics)
+        begun = of_start(start)
+        of = self._of.simulate(
+            _native(options), kept, choices, told, on_row, laws, pushes, whole, begun
+        )
         again = {key: x for key, x in options.items() if key != "reactions"}
         again = {**again, "choices": choices, "drives": drives, "forces": forces}
+        again = {**again, "controller": controller, "start": begun}
         run = Run(of, self, again, isinstance(choose, (str, Mapping)) and not kept)
         stopped = of.stopped()
         if stopped is not None:
@@ -358,9 +371,13 @@ class Scene(Questions):
     ) -> dict[str, Any]:
         own = dict(options)
         laws, pushes = of_drives(own.pop("drives", None)), of_bodies(own.pop("forces", None))
+        whole = of_controller(own.pop("controller", None), self._of.kinematics)
+        begun = of_start(own.pop("start", None))
         choices = own.pop("choices", [])
         place = arguments.path("directory", directory)
-        summary = self._of.simulate_into(place, _native(_options(**own)), choices, until, laws, pushes)
+        summary = self._of.simulate_into(
+            place, _native(_options(**own)), choices, until, laws, pushes, whole, begun
+        )
         document: dict[str, Any] = json.loads(summary)
         return document
 
@@ -424,6 +441,23 @@ class Scene(Questions):
             file.write(content)
         if boxes:
             warnings.warn(f"no font has these characters: {boxes}", stacklevel=2)
+
+    def state(self, at_time: float | None = None) -> State:
+        """Returns the state at the start, or at a time (s) of the motion."""
+        kinematics = self._of.kinematics()
+        t = kinematics.start_time if at_time is None else arguments.finite("at_time", at_time)
+        q, v = self._of.state(t, Common().checked(), None)
+        return State(kinematics, t, np.asarray(q), np.asarray(v))
+
+    def starting_at(self, start: StartArgument) -> Scene:
+        """Returns the scene that starts at a state and time.
+
+        The text contains the poses and velocities of the bodies, and the time. Prescribed motions
+        continue at this time.
+        """
+        given = of_start(start)
+        assert given is not None
+        return Scene._made(self._of.started_text(*given))
 
     def matrices(
         self,
@@ -508,9 +542,14 @@ def _native(options: Mapping[str, Any]) -> dict[str, Any]:
     return {"run": run, "common": common, **rest}
 
 
+def native_options(**options: Any) -> dict[str, Any]:
+    """Checks options of a run, and converts them to the format of the library."""
+    return _native(_options(**options))
+
+
 def _known(options: Mapping[str, Any]) -> None:
     """Rejects an unknown option with the same error as an unknown keyword."""
-    known = [*_CHECKS, "choices", "drives", "forces"]
+    known = [*_CHECKS, "choices", "drives", "forces", "controller", "start"]
     for name in options:
         if name not in known:
             near = _pfaff.nearest(name, known)

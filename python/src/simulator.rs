@@ -1,0 +1,320 @@
+//! A run that Python advances step by step. A thread owns the mechanism and its motion, and does the
+//! work of each call. The calling thread checks for signals.
+
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, channel};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::thread;
+
+use numpy::{IntoPyArray, PyArray1};
+use pfaff::documents::EventDocument;
+use pfaff::dynamics::{MotionError, MotionOptions, Simulator as Motion};
+use pfaff::forked::on_own_threads;
+use pfaff::model::System;
+use pfaff::refusal::{Refusal, json};
+use pfaff::report::part_as_json;
+use pfaff::start::document_of;
+use pfaff::{AssembledScene, RunOptions, Study, StudyError};
+use pyo3::prelude::*;
+
+use crate::fault::{Fault, guarded, raised_by, wrong};
+use crate::hearing::{BETWEEN, Hearing, STACK};
+use crate::options::{RunKeywords, unknown};
+use crate::scene::{Scene, Source};
+
+/// A run that is advanced step by step.
+#[pyclass(frozen, module = "pfaff._pfaff")]
+pub(crate) struct Simulator {
+    source: Arc<Source>,
+    overrides: RunOptions,
+    shared: Arc<Shared>,
+    jobs: Mutex<Sender<Job>>,
+    /// The process that has the thread.
+    process: u32,
+}
+
+/// What the thread of a simulator shares with its callers.
+struct Shared {
+    options: MotionOptions,
+    /// Values of commanded drives, by name.
+    commands: Mutex<Vec<(String, f64)>>,
+    /// Signals during the current call.
+    hearing: Mutex<Arc<Hearing>>,
+}
+
+/// Work for the thread. The result is another start, if the run continues there.
+type Job = Box<dyn FnOnce(&Study, &mut Motion<'_>) -> Option<Study> + Send>;
+
+impl Shared {
+    /// Starts a run at the start of a study.
+    fn motion<'s>(
+        &self,
+        study: &'s Study,
+        stop: &'s (dyn Fn() -> bool + Sync),
+    ) -> Result<Motion<'s>, StudyError> {
+        let options = MotionOptions {
+            t_end: study.start_time(),
+            ..self.options.clone()
+        };
+        Ok(Motion::new(&study.prepared, &options, stop)?)
+    }
+
+    /// Returns a study if a run can start there.
+    fn started(&self, study: Result<Study, StudyError>) -> Result<Study, StudyError> {
+        let study = study?;
+        self.motion(&study, &|| false)?;
+        Ok(study)
+    }
+
+    /// Does the work of all calls.
+    fn work(&self, mut study: Study, jobs: Receiver<Job>) {
+        let stop = || own(&self.hearing).has_ended();
+        loop {
+            let Ok(mut motion) = self.motion(&study, &stop) else {
+                return;
+            };
+            let next = jobs.iter().find_map(|job| job(&study, &mut motion));
+            match next {
+                Some(next) => study = next,
+                None => return,
+            }
+        }
+    }
+}
+
+#[pymethods]
+impl Simulator {
+    /// Starts a run at the start of a scene, or at a time, coordinates and velocities.
+    #[new]
+    #[pyo3(signature = (scene, options, start))]
+    fn new(
+        py: Python<'_>,
+        scene: &Scene,
+        options: RunKeywords,
+        start: Option<(f64, Vec<f64>, Vec<f64>)>,
+    ) -> PyResult<Self> {
+        let source = Arc::clone(&scene.0);
+        guarded(py, move || {
+            let overrides = options.run()?;
+            let within = (options.common.tolerance(), options.common.budget()?);
+            let judged = source.judged(within, overrides.drop.clone())?;
+            let study = source.started(judged.study()?, start.as_ref())?;
+            let of_run = study.memory(source.text.len());
+            let of_run = of_run.map_err(|e| source.fault(e))?;
+            within.1.allow(of_run, "this simulator")?;
+            let with = RunOptions {
+                t_end: Some(study.start_time()),
+                ..overrides.clone()
+            };
+            let options = study.options_with(&with);
+            let options = options.ok_or_else(|| source.fault(StudyError::NoEnd))?;
+            let shared = Arc::new(Shared {
+                options,
+                commands: Mutex::default(),
+                hearing: Mutex::new(Arc::new(Hearing::new())),
+            });
+            let study = shared.started(Ok(study)).map_err(|e| source.fault(e))?;
+            let (jobs, received) = channel();
+            let own = Arc::clone(&shared);
+            let work = move || on_own_threads(move || own.work(study, received));
+            let thread = thread::Builder::new().stack_size(STACK).spawn(work);
+            thread.map_err(|e| Refusal::stopped(format!("cannot start a thread: {e}")))?;
+            Ok(Self {
+                source,
+                overrides,
+                shared,
+                jobs: Mutex::new(jobs),
+                process: std::process::id(),
+            })
+        })
+    }
+
+    /// Advances the run to a time (s). Returns the events of the step as JSON.
+    fn step(&self, py: Python<'_>, to: f64) -> PyResult<Vec<String>> {
+        let source = Arc::clone(&self.source);
+        self.ask(py, move |study, motion| {
+            let events = motion.step(to).map_err(|e| source.fault(e.into()))?;
+            let layout = study.prepared.mechanism.layout();
+            let documents = events.iter().map(|event| EventDocument::new(event, layout));
+            let texts = documents.map(|document| part_as_json(&document).unwrap_or_default());
+            Ok((texts.collect(), None))
+        })
+    }
+
+    /// The time (s), the coordinates and the velocities.
+    fn state(&self, py: Python<'_>) -> PyResult<StateArrays> {
+        let (t, q, v) = self.ask(py, |_, motion| Ok((current(motion), None)))?;
+        let [q, v] = [q, v].map(|x| x.into_pyarray(py).unbind());
+        Ok((t, q, v))
+    }
+
+    /// Continues at another time (s), with other coordinates and velocities.
+    fn reset(&self, py: Python<'_>, t: f64, q: Vec<f64>, v: Vec<f64>) -> PyResult<()> {
+        let (source, shared) = (Arc::clone(&self.source), Arc::clone(&self.shared));
+        self.ask(py, move |study, _| {
+            let next = shared.started(study.at(t, &q, &v));
+            Ok(((), Some(next.map_err(|e| source.fault(e))?)))
+        })
+    }
+
+    /// Commands a drive by a law: its force or torque keeps this value until it is changed.
+    fn command(&self, py: Python<'_>, drive: String, effort: f64) -> PyResult<()> {
+        if !effort.is_finite() {
+            let message = format!("the value of drive `{drive}` is {effort}, need a finite number");
+            return Err(wrong(message).raised(py));
+        }
+        let is_known = {
+            let mut commands = own(&self.shared.commands);
+            let found = commands.iter_mut().find(|(name, _)| *name == drive);
+            found.map(|(_, value)| *value = effort).is_some()
+        };
+        if is_known {
+            return Ok(());
+        }
+        let (source, shared) = (Arc::clone(&self.source), Arc::clone(&self.shared));
+        let overrides = self.overrides.clone();
+        self.ask(py, move |study, motion| {
+            let described = commanded(study, &drive, &shared)?;
+            let (t, q, v) = current(motion);
+            own(&shared.commands).push((drive, effort));
+            let next = AssembledScene::build(described)
+                .and_then(|assembled| assembled.prepare(&overrides))
+                .and_then(|study| study.at(t, &q, &v));
+            match shared.started(next) {
+                Ok(next) => Ok(((), Some(next))),
+                Err(error) => {
+                    own(&shared.commands).pop();
+                    Err(source.fault(error))
+                }
+            }
+        })
+    }
+
+    /// The commanded drives with their values.
+    fn commands(&self) -> Vec<(String, f64)> {
+        own(&self.shared.commands).clone()
+    }
+
+    /// The verdicts at the current state as JSON, and all values of the reactions of each joint for
+    /// the independent rows of the run.
+    fn reactions(&self, py: Python<'_>) -> PyResult<(String, Vec<Vec<f64>>)> {
+        let source = Arc::clone(&self.source);
+        self.ask(py, move |study, motion| {
+            let (t, q, v) = current(motion);
+            let there = study.at(t, &q, &v).map_err(|e| source.fault(e))?;
+            let start = there.analyse(t, None).map_err(|e| source.fault(e))?;
+            let document = document_of(&start).map_err(|e| source.fault(e))?;
+            let space = study.prepared.mechanism.space();
+            let mut numbers = Vec::new();
+            let sampled = motion.sample(|sample| {
+                if let Ok(reactions) = sample.reactions() {
+                    let all = reactions.as_chosen().iter();
+                    let all = all.map(|r| r.components(space).chain(r.component).collect());
+                    numbers = all.collect();
+                }
+            });
+            sampled.map_err(|e| source.fault(MotionError::from(e).into()))?;
+            Ok(((json(&document)?, numbers), None))
+        })
+    }
+
+    /// The number of evaluations of accelerations by all steps since the last reset.
+    fn evaluations(&self, py: Python<'_>) -> PyResult<u64> {
+        self.ask(py, |_, motion| Ok((motion.evaluations(), None)))
+    }
+}
+
+impl Simulator {
+    /// Does work on the thread of the simulator.
+    fn ask<T: Send + 'static>(
+        &self,
+        py: Python<'_>,
+        work: impl FnOnce(&Study, &mut Motion<'_>) -> Result<(T, Option<Study>), Fault>
+        + Send
+        + 'static,
+    ) -> PyResult<T> {
+        let hearing = Arc::new(Hearing::new());
+        let listening = Arc::clone(&hearing);
+        let (done, waits) = channel();
+        let job: Job = Box::new(move |study, motion| {
+            let outcome = catch_unwind(AssertUnwindSafe(|| work(study, motion)));
+            let (outcome, next) = match outcome {
+                Ok(Ok((found, next))) => (Ok(Ok(found)), next),
+                Ok(Err(fault)) => (Ok(Err(fault)), None),
+                Err(panic) => (Err(panic), None),
+            };
+            // The caller waits for every result.
+            let _ = done.send(outcome);
+            next
+        });
+        let ended = || -> Fault {
+            let words = if self.process == std::process::id() {
+                "the thread of the simulator has ended"
+            } else {
+                "the simulator belongs to the process that created it: create another one"
+            };
+            Refusal::stopped(words.to_owned()).into()
+        };
+        let heard = &listening;
+        let outcome = py.detach(move || {
+            // Calls from several threads are made one after another.
+            let jobs = own(&self.jobs);
+            *own(&self.shared.hearing) = hearing;
+            if self.process != std::process::id() || jobs.send(job).is_err() {
+                return Err(ended());
+            }
+            loop {
+                match waits.recv_timeout(BETWEEN) {
+                    Ok(outcome) => return Ok(outcome),
+                    Err(RecvTimeoutError::Timeout) => {
+                        heard.ends();
+                    }
+                    Err(RecvTimeoutError::Disconnected) => return Err(ended()),
+                }
+            }
+        });
+        if let Some(raised) = listening.raised() {
+            return Err(raised);
+        }
+        match outcome {
+            Ok(Ok(Ok(found))) => Ok(found),
+            Ok(Ok(Err(fault))) | Err(fault) => Err(fault.raised(py)),
+            Ok(Err(panic)) => Err(raised_by(py, panic.as_ref())),
+        }
+    }
+}
+
+/// Returns the scene in which the value of a command replaces the law of a drive.
+fn commanded(
+    study: &Study,
+    drive: &str,
+    shared: &Arc<Shared>,
+) -> Result<pfaff::scene::Scene, Fault> {
+    let mut scene = study.scene.clone();
+    let known: Vec<String> = scene.description.laws().map(str::to_owned).collect();
+    let known: Vec<&str> = known.iter().map(String::as_str).collect();
+    if !known.contains(&drive) && scene.description.drives().all(|(name, _)| name != drive) {
+        return Err(unknown("drive by a law", drive, &known));
+    }
+    let (name, shared) = (drive.to_owned(), Arc::clone(shared));
+    let added = scene.description.control(&[drive], &[], move |_, efforts| {
+        let commands = own(&shared.commands);
+        let found = commands.iter().find(|(known, _)| *known == name);
+        efforts.drives.fill(found.ok_or("the drive is not commanded")?.1);
+        Ok(())
+    });
+    added.map_err(|e| wrong(e.to_string()))?;
+    Ok(scene)
+}
+
+fn current(motion: &Motion<'_>) -> (f64, Vec<f64>, Vec<f64>) {
+    let (t, q, v) = motion.state();
+    (t, q.to_vec(), v.to_vec())
+}
+
+/// Time, coordinates and velocities.
+type StateArrays = (f64, Py<PyArray1<f64>>, Py<PyArray1<f64>>);
+
+fn own<T>(of: &Mutex<T>) -> MutexGuard<'_, T> {
+    of.lock().unwrap_or_else(PoisonError::into_inner)
+}
