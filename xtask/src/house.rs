@@ -33,13 +33,13 @@ use crate::tree::root;
 // feature may increase a size limit, in a separate commit.
 
 /// Largest number of lines of code of all groups except tests and developers' tools.
-const TOTAL_MOST: usize = 158_900;
+const TOTAL_MOST: usize = 160_300;
 /// Largest number of lines of code of the product.
-const PRODUCT_MOST: usize = 122_200;
+const PRODUCT_MOST: usize = 123_100;
 /// Largest number of tokens of the product; with this limit, longer lines do not help.
-const TOKENS_MOST: usize = 1_162_000;
+const TOKENS_MOST: usize = 1_171_000;
 /// Largest number of lines of code of `dynamics`.
-const DYNAMICS_MOST: usize = 11_490;
+const DYNAMICS_MOST: usize = 11_720;
 /// Largest number of stateful types above the bounds.
 const STATEFUL_MOST: usize = 5;
 /// Largest number of modules in a circle.
