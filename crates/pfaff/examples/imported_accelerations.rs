@@ -1,12 +1,14 @@
-//! Accelerations of an imported model at each of its keyframes, for comparison with other programs:
+//! Accelerations of an imported model at each of its keyframes, or of a scene at its start, for
+//! comparison with other programs:
 //!
 //! ```text
 //! cargo run --release -p pfaff --example imported_accelerations -- arm.xml
+//! cargo run --release -p pfaff --example imported_accelerations -- arm.toml
 //! ```
 //!
 //! The output has one line for each body and keyframe: the keyframe, the body, the position and the
 //! acceleration of the mass centre, and the angular acceleration. Vectors are along the axes of the
-//! ground.
+//! ground. A scene has one state, with number 0.
 
 use std::error::Error;
 use std::ops::ControlFlow;
@@ -21,44 +23,60 @@ fn main() -> Result<(), Box<dyn Error>> {
     let file = std::env::args().nth(1).ok_or("needs a file")?;
     let text = std::fs::read_to_string(&file)?;
     let registry = Registry::standard();
+    if Path::new(&file)
+        .extension()
+        .is_some_and(|end| end == "toml")
+    {
+        return print_state(&file, &text, &registry, 0);
+    }
     for number in 0.. {
         let options = Options {
             folder: Folder::of(Path::new(&file)),
             keyframe: Some(format!("{number}")),
             ..Options::default()
         };
-        let imported = match import(&file, &text, &options) {
-            Ok(imported) => imported,
+        match import(&file, &text, &options) {
+            Ok(imported) => print_state(&file, &imported.scene, &registry, number)?,
             Err(_) if number > 0 => return Ok(()),
             Err(refusal) => return Err(format!("{:?}", refusal.diagnostics).into()),
-        };
-        let study = Study::read(&file, &imported.scene, &registry, &RunOptions::default());
-        let study = study.map_err(|e| format!("keyframe {number}: {e}\n{}", imported.scene))?;
-        let names: Vec<String> = study
-            .prepared
-            .mechanism
-            .bodies()
-            .iter()
-            .map(|b| b.name.clone())
-            .collect();
-        let row = |sample: &mut Sample<'_, '_>| -> Result<ControlFlow<()>, MotionFault> {
-            let a = sample.acceleration()?;
-            for (k, name) in names.iter().enumerate() {
-                let pose = &sample.q[7 * k..7 * k + 7];
-                let spin = [a[6 * k + 3], a[6 * k + 4], a[6 * k + 5]];
-                // The coordinates contain the quaternion of the principal axes. Angular velocities
-                // are in these axes.
-                let spin = times(&rotation(&pose[3..]), spin);
-                let numbers = pose[..3].iter().chain(&a[6 * k..6 * k + 3]).chain(&spin);
-                let numbers: Vec<String> = numbers.map(|x| format!("{x:?}")).collect();
-                print(&format!("{number}\t{name}\t{}\n", numbers.join("\t")));
-            }
-            Ok(ControlFlow::Break(()))
-        };
-        study
-            .run(&MotionOptions::to(1e-6), row)
-            .map_err(|failure| failure.to_string())?;
+        }
     }
+    Ok(())
+}
+
+/// Prints the accelerations at the start of a scene, which is the state with this number.
+fn print_state(
+    file: &str,
+    scene: &str,
+    registry: &Registry,
+    number: usize,
+) -> Result<(), Box<dyn Error>> {
+    let study = Study::read(file, scene, registry, &RunOptions::default());
+    let study = study.map_err(|e| format!("state {number}: {e}\n{scene}"))?;
+    let names: Vec<String> = study
+        .prepared
+        .mechanism
+        .bodies()
+        .iter()
+        .map(|b| b.name.clone())
+        .collect();
+    let row = |sample: &mut Sample<'_, '_>| -> Result<ControlFlow<()>, MotionFault> {
+        let a = sample.acceleration()?;
+        for (k, name) in names.iter().enumerate() {
+            let pose = &sample.q[7 * k..7 * k + 7];
+            let spin = [a[6 * k + 3], a[6 * k + 4], a[6 * k + 5]];
+            // The coordinates contain the quaternion of the principal axes. Angular velocities are
+            // in these axes.
+            let spin = times(&rotation(&pose[3..]), spin);
+            let numbers = pose[..3].iter().chain(&a[6 * k..6 * k + 3]).chain(&spin);
+            let numbers: Vec<String> = numbers.map(|x| format!("{x:?}")).collect();
+            print(&format!("{number}\t{name}\t{}\n", numbers.join("\t")));
+        }
+        Ok(ControlFlow::Break(()))
+    };
+    study
+        .run(&MotionOptions::to(1e-6), row)
+        .map_err(|failure| failure.to_string())?;
     Ok(())
 }
 
