@@ -17,15 +17,31 @@ import mujoco
 import numpy as np
 
 Array = np.ndarray
+# Kinds of joints as numbers, because a comparison of an enumeration with a number of numpy is false.
+FREE, BALL, HINGE = (
+    int(getattr(mujoco.mjtJoint, f"mjJNT_{name}")) for name in ("FREE", "BALL", "HINGE")
+)
 # Angles and velocities are far from zero, so that every term of the equations matters.
 SPREAD = 3.0
 # Loops close only near the described pose.
 SPREADS_OF_LOOPS = (0.3, 0.3, 0.1, 0.03, 0.0, *[1.0] * 20)
 # Constraints are satisfied to the rounding of sums of lengths, which are a few metres at most.
 CLOSED = 1e-12
+# A change of coordinates by about the rounding of sums along a chain of joints may change
+# accelerations by this share.
+CHANGE = 1e-14
+MOST_SENSITIVE = 1e-9
 # Rows whose singular value is smaller than this share of the largest one are dependent. The values
 # of independent rows are above 1e-4 in all models that were looked at, the others near 1e-15.
 DEPENDENT = 1e-8
+
+
+# Joints in extensions of URDF.
+EXTENSIONS = re.compile(
+    r"<loop_joint\b|<\w+:(?:linear_bushing|ball_constraint|joint)|<gazebo[^>]*>\s*<joint\b"
+)
+# Accelerations are known to fewer than four digits.
+SINGULAR = 1e12
 
 
 class NotComparable(Exception):
@@ -54,29 +70,52 @@ class Motion:
     linear: Array
     angular: Array
 
+    def numbers(self) -> Array:
+        return np.concatenate([self.linear, self.angular])
+
+
+def size_of(motions: dict[str, Motion]) -> float:
+    """Returns the largest component of an acceleration, which counts as at least 1."""
+    return max(1.0, *(float(np.abs(motion.numbers()).max()) for motion in motions.values()))
+
 
 def load(path: Path, loops: Loops | None = None, has_masses: bool = True) -> mujoco.MjModel:
     """Reads MJCF or URDF without meshes and without the content that the import omits.
 
     Without masses, every body gets the same mass. The ranks do not depend on masses.
     """
-    try:
-        spec = mujoco.MjSpec.from_file(str(path))
-    except (ValueError, mujoco.FatalError) as error:
-        raise NotComparable(f"MuJoCo cannot read it: {first_line(error)}") from error
     text = path.read_text(errors="replace")
     is_urdf = re.search(r"<\s*robot[\s>]", text) is not None
+    try:
+        # MuJoCo finds included files only beside a file, and recognises URDF only in a text.
+        spec = mujoco.MjSpec.from_string(text) if is_urdf else mujoco.MjSpec.from_file(str(path))
+    except (ValueError, mujoco.FatalError) as error:
+        raise NotComparable(f"MuJoCo cannot read it: {first_line(error)}") from error
     strip(spec, is_urdf)
+    if is_urdf and EXTENSIONS.search(text):
+        raise NotComparable("MuJoCo does not read joints of extensions of URDF")
     if loops:
         close(spec, text, loops)
-    if not has_masses:
-        for body in spec.bodies[1:]:
+    # MJCF bounds and scales masses, and these come from geoms.
+    return compiled(spec, has_masses, is_massless_allowed=is_urdf)
+
+
+def compiled(spec: mujoco.MjSpec, has_masses: bool, is_massless_allowed: bool) -> mujoco.MjModel:
+    """Compiles a specification. MuJoCo rejects bodies without mass, so these get it for a time."""
+    massless = []
+    for body in spec.bodies[1:]:
+        if not has_masses or (is_massless_allowed and not (body.explicitinertial and body.mass)):
+            massless.append(body.name)
             body.explicitinertial, body.mass, body.inertia = True, 1.0, [1.0, 1.0, 1.0]
-            body.fullinertia = [np.nan] * 6
+            body.fullinertia, body.ipos, body.iquat = [np.nan] * 6, [0.0] * 3, [1.0, 0.0, 0.0, 0.0]
     try:
         model = spec.compile()
     except (ValueError, mujoco.FatalError) as error:
         raise NotComparable(f"MuJoCo cannot compile it: {first_line(error)}") from error
+    if has_masses:
+        for name in massless:
+            body = model.body(name).id
+            model.body_mass[body], model.body_inertia[body] = 0.0, 0.0
     switch_off(model)
     return model
 
@@ -89,9 +128,15 @@ def strip(spec: mujoco.MjSpec, is_urdf: bool) -> None:
     """Removes meshes and content without an effect. URDF has masses only in `<inertial>`."""
     kinds = mujoco.mjtGeom
     meshes = (kinds.mjGEOM_MESH, kinds.mjGEOM_HFIELD, kinds.mjGEOM_SDF)
+    without = []
     for geom in list(spec.geoms):
         if is_urdf or geom.type in meshes or geom.meshname:
+            without.append(geom.parent)
             spec.delete(geom)
+    for body in without:
+        if not body.geoms and not body.explicitinertial:
+            # MuJoCo would take the position of the body as its mass centre, for bounds of masses.
+            body.ipos, body.iquat = [0.0, 0.0, 0.0], [1.0, 0.0, 0.0, 0.0]
     lists = (
         spec.keys, spec.sensors, spec.actuators, spec.pairs, spec.excludes, spec.skins,
         spec.tuples, spec.meshes, spec.hfields, spec.materials, spec.textures,
@@ -111,12 +156,24 @@ def strip(spec: mujoco.MjSpec, is_urdf: bool) -> None:
 def close(spec: mujoco.MjSpec, urdf: str, loops: Loops) -> None:
     """Changes the types of joints, and adds the closures of loops."""
     hinge, ball = mujoco.mjtJoint.mjJNT_HINGE, mujoco.mjtJoint.mjJNT_BALL
-    links = {joint.get("name"): joint.find("child") for joint in ElementTree.fromstring(urdf)}
-    for name, kind in loops.joints:
-        child = links.get(name)
-        body = spec.body(child.get("link")) if child is not None else None
+    robot = ElementTree.fromstring(urdf)
+    links = {link.get("name") for link in robot.findall("link")}
+    places = {
+        joint.get("name"): joint.find("child").get("link") for joint in robot.findall("joint")
+    }
+
+    def body_of(name: str) -> mujoco.MjsBody:
+        """Returns the body of a link, or of the link that a joint places."""
+        link = name if name in links else places.get(name, "")
+        # MuJoCo attaches the content of the root link to the world.
+        is_root = link in links and link not in places.values()
+        body = spec.worldbody if is_root else spec.body(link)
         if body is None:
-            raise NotComparable(f"MuJoCo has no joint `{name}` of the loops")
+            raise NotComparable(f"MuJoCo has no body `{name}` of a loop")
+        return body
+
+    for name, kind in loops.joints:
+        body = body_of(places.get(name, ""))
         for joint in list(body.joints):
             spec.delete(joint)
         if kind == "SPHERICAL":
@@ -128,10 +185,7 @@ def close(spec: mujoco.MjSpec, urdf: str, loops: Loops) -> None:
     of_pair = {"6d": mujoco.mjtEq.mjEQ_WELD, "3d": mujoco.mjtEq.mjEQ_CONNECT}
     for number, (first, second, kind) in enumerate(loops.pairs):
         for end, link in enumerate((first, second)):
-            body = spec.body(link)
-            if body is None:
-                raise NotComparable(f"MuJoCo has no body `{link}` of a loop")
-            body.add_site(name=f"loop {number} {end}")
+            body_of(link).add_site(name=f"loop {number} {end}")
         names = {"name1": f"loop {number} 0", "name2": f"loop {number} 1"}
         spec.add_equality(type=of_pair[kind], objtype=mujoco.mjtObj.mjOBJ_SITE, **names)
 
@@ -143,26 +197,45 @@ def switch_off(model: mujoco.MjModel) -> None:
     model.opt.jacobian = mujoco.mjtJacobian.mjJAC_DENSE
     model.opt.density, model.opt.viscosity, model.opt.wind[:] = 0.0, 0.0, 0.0
     model.dof_dampingpoly[:], model.jnt_stiffnesspoly[:] = 0.0, 0.0
-    model.tendon_stiffness[:], model.tendon_damping[:], model.tendon_armature[:] = 0.0, 0.0, 0.0
+    for name in ("stiffness", "damping", "armature", "stiffnesspoly", "dampingpoly"):
+        getattr(model, f"tendon_{name}")[:] = 0.0
     model.jnt_actgravcomp[:] = 0
-    ball, free = mujoco.mjtJoint.mjJNT_BALL, mujoco.mjtJoint.mjJNT_FREE
     for dof in range(model.nv):
         joint = model.dof_jntid[dof]
-        if model.jnt_type[joint] in (ball, free):
+        if model.jnt_type[joint] in (BALL, FREE):
             model.dof_damping[dof] = model.dof_armature[dof] = 0.0
-        if model.jnt_type[joint] == free:
+        if model.jnt_type[joint] == FREE:
             model.jnt_stiffness[joint] = 0.0
 
 
 def states(model: mujoco.MjModel, count: int, rng: np.random.Generator) -> list[State]:
-    """Returns random states that satisfy the constraints."""
-    out = []
-    for _ in range(count):
+    """Returns random states that satisfy the constraints and whose accelerations are not sensitive.
+
+    Near singular configurations and for bodies of nearly no inertia, rounding decides.
+    """
+    out: list[State] = []
+    for _ in range(5 * count):
         q, v = random_state(model, rng, SPREAD)
         if has_constraints(model):
             q, v = constrained_state(model, rng)
-        out.append(State(q, v))
-    return out
+        state = State(q, v)
+        if sensitivity(model, state, rng) < MOST_SENSITIVE:
+            out.append(state)
+        if len(out) == count:
+            return out
+    raise NotComparable("rounding decides about the accelerations")
+
+
+def sensitivity(model: mujoco.MjModel, state: State, rng: np.random.Generator) -> float:
+    """Returns the relative change of accelerations if coordinates change in the last digits."""
+    q = state.q.copy()
+    mujoco.mj_integratePos(model, q, rng.uniform(-1, 1, model.nv), CHANGE)
+    before = accelerations(model, state)
+    if not before:
+        return 0.0
+    after = accelerations(model, State(q, state.v))
+    change = max(np.abs(after[name].numbers() - before[name].numbers()).max() for name in before)
+    return float(change / size_of(before))
 
 
 def has_constraints(model: mujoco.MjModel) -> bool:
@@ -192,12 +265,12 @@ def random_state(
     q = model.qpos0.copy()
     for joint in range(model.njnt):
         at, kind = model.jnt_qposadr[joint], model.jnt_type[joint]
-        if kind == mujoco.mjtJoint.mjJNT_FREE:
+        if kind == FREE:
             q[at : at + 3] += rng.uniform(-spread, spread, 3) / 3
             at += 3
-        if kind in (mujoco.mjtJoint.mjJNT_FREE, mujoco.mjtJoint.mjJNT_BALL):
+        if kind in (FREE, BALL):
             mujoco.mju_quatIntegrate(q[at : at + 4], rng.uniform(-spread, spread, 3), 1.0)
-        elif kind == mujoco.mjtJoint.mjJNT_HINGE:
+        elif kind == HINGE:
             q[at] += rng.uniform(-spread, spread)
         else:
             q[at] += rng.uniform(-spread, spread) / 3
@@ -220,10 +293,16 @@ def jacobian(model: mujoco.MjModel, q: Array) -> Array:
 def closest(model: mujoco.MjModel, q: Array) -> Array | None:
     """Returns coordinates near `q` that satisfy the constraints, by Newton's method."""
     q = q.copy()
+    left = None
     for _ in range(50):
         data = evaluated(model, q)
-        if data.nefc == 0 or np.abs(data.efc_pos).max() < CLOSED:
+        gap = np.abs(data.efc_pos).max(initial=0.0)
+        # Further steps reduce the gap to the rounding.
+        if gap < CLOSED and left is None:
+            left = 3
+        if gap == 0.0 or left == 0:
             return q
+        left = None if left is None else left - 1
         constraints = data.efc_J.reshape(data.nefc, model.nv)
         step = -np.linalg.pinv(constraints, rcond=DEPENDENT) @ data.efc_pos
         mujoco.mj_integratePos(model, q, step * min(1.0, 0.5 / max(np.abs(step).max(), 1e-9)), 1.0)
@@ -275,17 +354,23 @@ def joint_accelerations(model: mujoco.MjModel, data: mujoco.MjData, state: State
     """Solves the equations of motion with exact constraints, by a basis of the free motions."""
     mass = np.zeros((model.nv, model.nv))
     mujoco.mj_fullM(model, data, mass)
-    force = data.qfrc_smooth.copy()
-    if not data.nefc:
-        return np.linalg.solve(mass, force) if model.nv else force
-    constraints = data.efc_J.reshape(data.nefc, model.nv).copy()
-    inverse = np.linalg.pinv(constraints, rcond=DEPENDENT)
-    needed = -inverse @ rate_of_jacobian(model, data, state)
-    _, values, basis = np.linalg.svd(constraints)
-    free = basis[int(np.sum(values > DEPENDENT * values.max())) :].T
+    needed, free = np.zeros(model.nv), np.eye(model.nv)
+    if data.nefc:
+        constraints = data.efc_J.reshape(data.nefc, model.nv).copy()
+        inverse = np.linalg.pinv(constraints, rcond=DEPENDENT)
+        needed = -inverse @ rate_of_jacobian(model, data, state)
+        _, values, basis = np.linalg.svd(constraints)
+        free = basis[int(np.sum(values > DEPENDENT * values.max())) :].T
     if not free.shape[1]:
         return needed
-    return needed + free @ np.linalg.solve(free.T @ mass @ free, free.T @ (force - mass @ needed))
+    reduced = free.T @ mass @ free
+    scale = 1 / np.sqrt(np.maximum(reduced.diagonal(), 1e-300))
+    if reduced.diagonal().min() <= 0 or np.linalg.cond(scale[:, None] * reduced * scale) > SINGULAR:
+        raise NotComparable("a body without mass moves, so accelerations do not exist")
+    force = free.T @ (data.qfrc_smooth - mass @ needed)
+    return needed + free @ (
+        scale * np.linalg.solve(scale[:, None] * reduced * scale, scale * force)
+    )
 
 
 def rate_of_jacobian(model: mujoco.MjModel, data: mujoco.MjData, state: State) -> Array:
@@ -308,16 +393,15 @@ def largest_difference(theirs: dict[str, Motion], ours: dict[str, Motion]) -> fl
 
     Every body of MuJoCo must be in the scene. Bodies without a name are found by their mass centre.
     """
-    size = max(1.0, *(np.abs([m.linear, m.angular]).max() for m in theirs.values()))
+    size = size_of(theirs)
     worst = 0.0
     for name, motion in theirs.items():
-        other = ours.get(name) or nearest(motion, ours)
+        other = ours.get(name) or most_similar(motion, ours)
         if np.abs(motion.centre - other.centre).max() > 1e-9 * max(
             1.0, np.abs(motion.centre).max()
         ):
             raise Differs(f"the mass centre of `{name}` is elsewhere")
-        for a, b in ((motion.linear, other.linear), (motion.angular, other.angular)):
-            worst = max(worst, float(np.abs(a - b).max()) / size)
+        worst = max(worst, float(np.abs(motion.numbers() - other.numbers()).max()) / size)
     return worst
 
 
@@ -325,10 +409,16 @@ class Differs(Exception):
     """Bodies of both sides do not correspond."""
 
 
-def nearest(motion: Motion, ours: dict[str, Motion]) -> Motion:
+def most_similar(motion: Motion, ours: dict[str, Motion]) -> Motion:
+    """Returns the most similar motion of the bodies whose mass centre is nearest."""
+
+    def distance(other: Motion) -> tuple[float, float]:
+        apart = float(np.abs(other.centre - motion.centre).max())
+        return round(apart, 9), float(np.abs(motion.numbers() - other.numbers()).max())
+
     if not ours:
         raise Differs("the scene has no bodies")
-    return min(ours.values(), key=lambda other: float(np.abs(other.centre - motion.centre).max()))
+    return min(ours.values(), key=distance)
 
 
 def parsed(text: str) -> dict[int, dict[str, Motion]]:

@@ -12,7 +12,7 @@ from xml.etree import ElementTree
 import mujoco
 import numpy as np
 
-from reference import NotComparable, switch_off
+from reference import NotComparable, compiled
 
 Array = np.ndarray
 Element = ElementTree.Element
@@ -44,15 +44,7 @@ def load_sdf(path: Path, has_masses: bool = True) -> mujoco.MjModel:
     gravity = around.findtext("gravity")
     spec.option.gravity = numbers(gravity) if gravity else GRAVITY
     Builder(models[0], version_of(root), spec).build()
-    if not has_masses:
-        for body in spec.bodies[1:]:
-            body.mass, body.inertia, body.fullinertia = 1.0, [1.0, 1.0, 1.0], [np.nan] * 6
-    try:
-        model = spec.compile()
-    except (ValueError, mujoco.FatalError) as error:
-        raise NotComparable(f"MuJoCo cannot compile it: {str(error).splitlines()[0]}") from error
-    switch_off(model)
-    return model
+    return compiled(spec, has_masses, is_massless_allowed=True)
 
 
 def without_prefixes(text: str) -> str:
@@ -116,6 +108,8 @@ class Builder:
     def build(self) -> None:
         if (self.model.findtext("static") or "").strip() in ("true", "1"):
             raise NotComparable("the model is static")
+        if "world" in self.links:
+            raise NotComparable("a link is called `world`, which SDF reserves")
         before: dict[str, Element] = {}
         for joint in self.joints:
             child = self.link_of((joint.findtext("child") or "").strip())
