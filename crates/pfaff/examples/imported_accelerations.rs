@@ -1,14 +1,14 @@
-//! Accelerations of an imported model at each of its keyframes, or of a scene at its start, for
-//! comparison with other programs:
+//! Accelerations of an imported model at its keyframes `state 0`, `state 1` and so on, or of a scene
+//! at its start, for comparison with other programs:
 //!
 //! ```text
 //! cargo run --release -p pfaff --example imported_accelerations -- arm.xml
 //! cargo run --release -p pfaff --example imported_accelerations -- arm.toml
 //! ```
 //!
-//! The output has one line for each body and keyframe: the keyframe, the body, the position and the
-//! acceleration of the mass centre, and the angular acceleration. Vectors are along the axes of the
-//! ground. A scene has one state, with number 0.
+//! The output has one line for each body and state: the number of the state, the body, the position
+//! and the acceleration of the mass centre, and the angular acceleration. Vectors are along the axes
+//! of the ground. A scene has one state, with number 0.
 
 use std::error::Error;
 use std::ops::ControlFlow;
@@ -32,7 +32,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     for number in 0.. {
         let options = Options {
             folder: Folder::of(Path::new(&file)),
-            keyframe: Some(format!("{number}")),
+            keyframe: Some(format!("state {number}")),
             ..Options::default()
         };
         match import(&file, &text, &options) {

@@ -102,20 +102,24 @@ def load(path: Path, loops: Loops | None = None, has_masses: bool = True) -> muj
 
 def compiled(spec: mujoco.MjSpec, has_masses: bool, is_massless_allowed: bool) -> mujoco.MjModel:
     """Compiles a specification. MuJoCo rejects bodies without mass, so these get it for a time."""
-    massless = []
+    massless: dict[str, bool] = {}
     for body in spec.bodies[1:]:
         if not has_masses or (is_massless_allowed and not (body.explicitinertial and body.mass)):
-            massless.append(body.name)
-            body.explicitinertial, body.mass, body.inertia = True, 1.0, [1.0, 1.0, 1.0]
-            body.fullinertia, body.ipos, body.iquat = [np.nan] * 6, [0.0] * 3, [1.0, 0.0, 0.0, 0.0]
+            moments = np.nan_to_num([*body.fullinertia, *body.inertia])
+            turns = has_masses and body.explicitinertial and bool(moments.any())
+            massless[body.name] = turns
+            body.explicitinertial, body.mass = True, 1.0
+            if not turns:
+                body.fullinertia, body.inertia = [np.nan] * 6, [1.0, 1.0, 1.0]
+                body.ipos, body.iquat = [0.0] * 3, [1.0, 0.0, 0.0, 0.0]
     try:
         model = spec.compile()
     except (ValueError, mujoco.FatalError) as error:
         raise NotComparable(f"MuJoCo cannot compile it: {first_line(error)}") from error
-    if has_masses:
-        for name in massless:
-            body = model.body(name).id
-            model.body_mass[body], model.body_inertia[body] = 0.0, 0.0
+    for name, turns in massless.items() if has_masses else ():
+        body = model.body(name).id
+        model.body_mass[body] = 0.0
+        model.body_inertia[body] *= turns
     switch_off(model)
     return model
 
@@ -195,6 +199,8 @@ def switch_off(model: mujoco.MjModel) -> None:
         model.opt.disableflags |= getattr(mujoco.mjtDisableBit, f"mjDSBL_{bit}")
     model.opt.enableflags = 0
     model.opt.jacobian = mujoco.mjtJacobian.mjJAC_DENSE
+    # MuJoCo would drop rotations below about 1e-6 between the frames of a body.
+    model.body_sameframe[:], model.site_sameframe[:] = 0, 0
     model.opt.density, model.opt.viscosity, model.opt.wind[:] = 0.0, 0.0, 0.0
     model.dof_dampingpoly[:], model.jnt_stiffnesspoly[:] = 0.0, 0.0
     for name in ("stiffness", "damping", "armature", "stiffnesspoly", "dampingpoly"):
@@ -432,14 +438,11 @@ def parsed(text: str) -> dict[int, dict[str, Motion]]:
 
 
 def with_keyframes(text: str, chosen: list[State]) -> str:
-    """Returns the text of a MJCF file with these states as its keyframes."""
-    text = re.sub(
-        r"<\s*keyframe\s*/>|<\s*keyframe\b.*?</\s*keyframe\s*>", "", text, flags=re.DOTALL
-    )
+    """Returns the text of a MJCF file with these states as further keyframes."""
     keys = []
     for number, state in enumerate(chosen):
         q, v = (" ".join(repr(float(x)) for x in of) for of in (state.q, state.v))
-        keys.append(f'<key name="{number}" qpos="{q}" qvel="{v}"/>')
+        keys.append(f'<key name="state {number}" qpos="{q}" qvel="{v}"/>')
     end = text.rfind("</mujoco")
     if end < 0:
         raise NotComparable("the file has no element <mujoco>")
