@@ -238,7 +238,7 @@ def compare_accelerations(
 ) -> float:
     chosen = reference.states(model, STATES, np.random.default_rng(SEED))
     if not reference.groups(model):
-        raise reference.NotComparable("no body moves")
+        raise reference.NotComparable("no body with mass moves")
     ours = our_accelerations(model, chosen, entry, folder, programs, scene)
     worst = 0.0
     for number, state in enumerate(chosen):
