@@ -154,6 +154,10 @@ def strip(spec: mujoco.MjSpec, is_urdf: bool) -> None:
         body.plugin.active = False
     for joint in spec.joints:
         joint.springdamper = [0.0, 0.0]
+        if int(joint.type) in (BALL, FREE):
+            joint.armature, joint.damping = 0.0, [0.0] * len(joint.damping)
+        if int(joint.type) == FREE:
+            joint.stiffness = [0.0] * len(joint.stiffness)
     spec.compiler.fusestatic = False
 
 
@@ -206,12 +210,6 @@ def switch_off(model: mujoco.MjModel) -> None:
     for name in ("stiffness", "damping", "armature", "stiffnesspoly", "dampingpoly"):
         getattr(model, f"tendon_{name}")[:] = 0.0
     model.jnt_actgravcomp[:] = 0
-    for dof in range(model.nv):
-        joint = model.dof_jntid[dof]
-        if model.jnt_type[joint] in (BALL, FREE):
-            model.dof_damping[dof] = model.dof_armature[dof] = 0.0
-        if model.jnt_type[joint] == FREE:
-            model.jnt_stiffness[joint] = 0.0
 
 
 def states(model: mujoco.MjModel, count: int, rng: np.random.Generator) -> list[State]:
@@ -275,7 +273,10 @@ def random_state(
             q[at : at + 3] += rng.uniform(-spread, spread, 3) / 3
             at += 3
         if kind in (FREE, BALL):
-            mujoco.mju_quatIntegrate(q[at : at + 4], rng.uniform(-spread, spread, 3), 1.0)
+            # Springs of ball joints have no value in scenes beyond 3 rad.
+            turn = rng.uniform(-spread, spread, 3)
+            turn *= min(1.0, 2.9 / max(float(np.linalg.norm(turn)), 1e-9))
+            mujoco.mju_quatIntegrate(q[at : at + 4], turn, 1.0)
         elif kind == HINGE:
             q[at] += rng.uniform(-spread, spread)
         else:
