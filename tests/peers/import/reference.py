@@ -293,8 +293,12 @@ def evaluated(model: mujoco.MjModel, q: Array, v: Array | None = None) -> mujoco
 
 
 def jacobian(model: mujoco.MjModel, q: Array) -> Array:
-    data = evaluated(model, q)
-    return data.efc_J.reshape(data.nefc, model.nv).copy()
+    return rows_of(model, evaluated(model, q))
+
+
+def rows_of(model: mujoco.MjModel, data: mujoco.MjData) -> Array:
+    """Returns the rows of the active constraints. MuJoCo may keep more numbers."""
+    return data.efc_J.ravel()[: data.nefc * model.nv].reshape(data.nefc, model.nv).copy()
 
 
 def closest(model: mujoco.MjModel, q: Array) -> Array | None:
@@ -310,7 +314,7 @@ def closest(model: mujoco.MjModel, q: Array) -> Array | None:
         if gap == 0.0 or left == 0:
             return q
         left = None if left is None else left - 1
-        constraints = data.efc_J.reshape(data.nefc, model.nv)
+        constraints = rows_of(model, data)
         step = -np.linalg.pinv(constraints, rcond=DEPENDENT) @ data.efc_pos
         mujoco.mj_integratePos(model, q, step * min(1.0, 0.5 / max(np.abs(step).max(), 1e-9)), 1.0)
     return None
@@ -363,7 +367,7 @@ def joint_accelerations(model: mujoco.MjModel, data: mujoco.MjData, state: State
     mujoco.mj_fullM(model, data, mass)
     needed, free = np.zeros(model.nv), np.eye(model.nv)
     if data.nefc:
-        constraints = data.efc_J.reshape(data.nefc, model.nv).copy()
+        constraints = rows_of(model, data)
         inverse = np.linalg.pinv(constraints, rcond=DEPENDENT)
         needed = -inverse @ rate_of_jacobian(model, data, state)
         _, values, basis = np.linalg.svd(constraints)
