@@ -161,9 +161,10 @@ pub(crate) const REFINEMENT_ROUNDS: usize = 8;
 /// `whole_numbers_come_back_exactly`.
 pub(crate) const SETTLED: f64 = 0.0625 * f64::EPSILON;
 
-/// Two successive changes below this share of the largest unknown of their kind are rounding of
-/// double-double numbers: 2⁻⁹⁶. Unit: share of the largest unknown. Too small: unknowns that are
-/// zero delay the other unknowns. Too large: small unknowns are not refined. Test: none.
+/// Two successive changes below this share of the largest unknown of their kind, or of the largest
+/// term that balances others, are rounding of double-double numbers: 2⁻⁹⁶. Unit: share of the
+/// largest unknown or term. Too small: unknowns that are zero delay the other unknowns. Too large:
+/// small unknowns are not refined. Test: `balanced_forces_are_settled`.
 pub(crate) const REFINEMENT_NOISE: f64 = 1.262_177_448_353_619e-29;
 
 // Equations with independent rows, solved through the Schur complement of the masses.

@@ -51,12 +51,13 @@ impl Unknowns {
         }
     }
 
-    /// Starts with the first solution, which is stored in `change`.
-    fn begin(&mut self) {
+    /// Starts with the first solution, which is stored in `change`. `balanced` is the size of the
+    /// terms whose sum determines the unknowns: the sum of balanced terms is their rounding.
+    fn begin(&mut self, balanced: f64) {
         self.x.fill(Dd::ZERO);
         self.before.fill(0.0);
         self.size.fill(0.0);
-        self.noise = REFINEMENT_NOISE * max_abs(&self.change);
+        self.noise = REFINEMENT_NOISE * max_abs(&self.change).max(balanced);
         self.add();
     }
 
@@ -144,8 +145,10 @@ impl KeptRowSaddle {
             ..
         } = refinement;
         self.solve(f, gamma, &mut to_a.change, &mut to_lambda.change)?;
-        to_a.begin();
-        to_lambda.begin();
+        let masses = self.free.mass.iter();
+        let each = masses.zip(f).filter(|(m, _)| **m > 0.0);
+        to_a.begin(each.fold(0.0, |most: f64, (m, f)| most.max(f.abs() / m)));
+        to_lambda.begin(0.0);
 
         let (mut rounds, mut before) = (0, 1.0);
         loop {
@@ -272,6 +275,53 @@ mod tests {
                 assert!(is_exact, "seed {seed}: {found} instead of {exact}");
             }
         }
+    }
+
+    /// A ball joint carries a body exactly below it, so its acceleration is zero. Its weight and
+    /// the force of the joint balance up to rounding, which is no acceleration that could be
+    /// refined.
+    #[test]
+    fn balanced_forces_are_settled() {
+        let mut refused = Vec::new();
+        for k in 0..400_u32 {
+            let d = [1, 2, 3].map(|n| f64::from(1 + (k * n) % 7));
+            let mass = 1.0 + f64::from(k % 64) * f64::EPSILON;
+            let inertia = mass / 600.0;
+            let [x, y, z]: [f64; 3] = d;
+            // The rows of a ball joint at −d: v − ω × d.
+            let rows = [
+                [1.0, 0.0, 0.0, 0.0, -z, y],
+                [0.0, 1.0, 0.0, z, 0.0, -x],
+                [0.0, 0.0, 1.0, -y, x, 0.0],
+            ];
+            let c = Matrix::from_fn(3, 6, |i, j| rows[i][j]);
+            let mut saddle = factored(&c, &[mass, mass, mass, inertia, inertia, inertia]);
+            let f = [mass * x, mass * y, mass * z, 0.0, 0.0, 0.0];
+            let (mut a, mut lambda) = ([0.0; 6], [0.0; 3]);
+            let found = saddle.solve_refined(
+                &mut Refinement::new(6, 3),
+                |k| c.row(k),
+                &f,
+                &[0.0; 3],
+                &mut a,
+                &mut lambda,
+            );
+            match found {
+                Ok(()) => {
+                    let left = a.iter().fold(0.0, |most: f64, a| most.max(a.abs()));
+                    // The product of mass and gravity is rounded.
+                    assert!(left < 1e-11, "{k}: {a:?}");
+                    assert!((lambda[0] - f[0]).abs() < 1e-14, "{k}: {lambda:?}");
+                }
+                Err(error) => refused.push((k, error)),
+            }
+        }
+        assert!(
+            refused.is_empty(),
+            "{} of 400: {:?}",
+            refused.len(),
+            refused.first()
+        );
     }
 
     /// Five carts are tied to each other, and a force acts at the end: a = F/Σm, and each tie
