@@ -84,9 +84,9 @@ impl PreparedMechanism {
     }
 
     /// Returns the same mechanism with another start: a time (s), coordinates (n_q) and velocities
-    /// (n_v). Initial values of joints and drives do not change, so prescribed motions continue. The
-    /// state is corrected like the start of a scene. At a break time, at which prescribed rates may
-    /// jump, velocities before the jump become the velocities after the jump.
+    /// (n_v). Initial values of joints and drives do not change, so prescribed motions continue.
+    /// The state is corrected like the start of a scene. At a break time, at which prescribed rates
+    /// may jump, velocities before the jump become the velocities after the jump.
     ///
     /// ```
     /// use joints::{Revolute, RevoluteAngleDrive};

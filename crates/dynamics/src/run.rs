@@ -39,8 +39,8 @@ pub use sample::{ChosenReactions, Sample};
 pub use simulator::Simulator;
 pub use summary::{ComponentSummary, DroppedRows, Failure, Summary};
 
-/// Runs a prepared mechanism from its start. The function `row` is called for the rows at the start,
-/// at every output step and at the end. The plan requests all output.
+/// Runs a prepared mechanism from its start. The function `row` is called for the rows at the
+/// start, at every output step and at the end. The plan requests all output.
 ///
 /// ```
 /// use std::ops::ControlFlow;

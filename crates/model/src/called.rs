@@ -1,6 +1,6 @@
 //! Forces that are computed by a callback function of the caller: force laws of drives, wrenches on
-//! bodies, and controllers that command several drives and bodies. The callback returns only values. Therefore methods that need derivatives do
-//! not support these forces.
+//! bodies, and controllers that command several drives and bodies. The callback returns only
+//! values. Therefore methods that need derivatives do not support these forces.
 //!
 //! The derivatives of a mechanism with such a force cannot be computed. Each method that needs
 //! derivatives must return an error or leave its result undecided. Finite differences of the

@@ -238,8 +238,8 @@ impl<S: BodySpace> MechanismDescription<S> {
 
     /// Adds a controller: a callback that commands drives with force laws and loads bodies. The
     /// callback receives the state of the whole mechanism and is called once for each evaluation of
-    /// the applied forces. The conditions of [`Law::called`] apply. Its values replace the force laws
-    /// of the drives, and act as forces and torques at the centres of mass of the bodies.
+    /// the applied forces. The conditions of [`Law::called`] apply. Its values replace the force
+    /// laws of the drives, and act as forces and torques at the centres of mass of the bodies.
     ///
     /// ```
     /// use joints::{Revolute, RevoluteAngleDrive};

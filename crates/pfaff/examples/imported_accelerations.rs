@@ -1,5 +1,5 @@
-//! Accelerations of an imported model at its keyframes `state 0`, `state 1` and so on, or of a scene
-//! at its start, for comparison with other programs:
+//! Accelerations of an imported model at its keyframes `state 0`, `state 1` and so on, or of a
+//! scene at its start, for comparison with other programs:
 //!
 //! ```text
 //! cargo run --release -p pfaff --example imported_accelerations -- arm.xml
@@ -7,8 +7,8 @@
 //! ```
 //!
 //! The output has one line for each body and state: the number of the state, the body, the position
-//! and the acceleration of the mass centre, and the angular acceleration. Vectors are along the axes
-//! of the ground. A scene has one state, with number 0.
+//! and the acceleration of the mass centre, and the angular acceleration. Vectors are along the
+//! axes of the ground. A scene has one state, with number 0.
 
 use std::error::Error;
 use std::ops::ControlFlow;

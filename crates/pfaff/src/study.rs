@@ -140,19 +140,25 @@ impl Study {
     ///
     /// ```
     /// use pfaff::prelude::*;
+    /// use std::ops::ControlFlow;
     ///
     /// let mut thrown = Description { gravity: [0.0, -10.0], ..Description::new("thrown") };
     /// thrown.body(Body { velocity: Some([0.0, 5.0]), ..Body::new("stone", 1.0, 1.0) });
     /// let study = Study::build(thrown)?;
-    /// let state = study.state_at(0.5)?;
-    /// let later = study.at(0.5, &state.q, &state.v)?;
-    /// assert_eq!(later.start_time(), 0.5);
-    /// assert!((later.state_at(1.0)?.q[1] - 0.0).abs() < 1e-9);
+    /// // It flies on for half a second, from its highest point.
+    /// let later = study.at(0.5, &[0.0, 1.25, 0.0], &[0.0; 3])?;
+    /// let mut height = 0.0;
+    /// later.run(&MotionOptions::to(1.0), |sample| {
+    ///     height = sample.q[1];
+    ///     Ok(ControlFlow::Continue(()))
+    /// }).map_err(|failure| failure.error)?;
+    /// assert!(later.start_time() == 0.5 && height.abs() < 1e-9);
     /// # Ok::<(), StudyError>(())
     /// ```
     ///
     /// # Errors
-    /// [`StudyError::Motion`]: the state does not satisfy the constraints, or no rows can be chosen.
+    /// [`StudyError::Motion`]: the state does not satisfy the constraints, or no rows can be
+    /// chosen.
     pub fn at(&self, t: f64, q: &[f64], v: &[f64]) -> Result<Self, StudyError> {
         Ok(Self {
             prepared: self.prepared.at(t, q, v)?,

@@ -12,8 +12,8 @@ use crate::system::Scratch;
 
 impl Mechanism {
     /// Returns the joint coordinates and rates of the drives with force laws and of the springs on
-    /// joint coordinates, at the configuration and the velocities in the work space, in the order of
-    /// the forces.
+    /// joint coordinates, at the configuration and the velocities in the work space, in the order
+    /// of the forces.
     pub fn drive_states(&self, s: &Scratch) -> impl Iterator<Item = DriveState> {
         let forces = self.elements.forces.iter();
         forces.filter_map(|force| {
@@ -87,8 +87,8 @@ impl Mechanism {
         s.slots.commands = commands;
     }
 
-    /// Returns the reason why a controller has no values at the state in the work space, if there is
-    /// such a reason.
+    /// Returns the reason why a controller has no values at the state in the work space, if there
+    /// is such a reason.
     pub(super) fn uncommanded(&self, s: &mut Scratch) -> Option<UndefinedValue> {
         let commands = self.stated(s);
         let all = self.elements.controllers.iter();

@@ -161,10 +161,10 @@ impl<'m> AppliedForces<'m> {
         })
     }
 
-    /// Returns the change of Q for a unit change of each function of time, and for an additional unit
-    /// force or torque of each drive with a force law and of each spring on a joint coordinate. Q is
-    /// evaluated at the configuration and the velocities in the work space. The function allocates
-    /// memory.
+    /// Returns the change of Q for a unit change of each function of time, and for an additional
+    /// unit force or torque of each drive with a force law and of each spring on a joint
+    /// coordinate. Q is evaluated at the configuration and the velocities in the work space. The
+    /// function allocates memory.
     #[must_use]
     pub fn pushes(self, s: &mut Scratch) -> Vec<Push<'m>> {
         let mut all = Vec::new();

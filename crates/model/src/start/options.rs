@@ -19,8 +19,8 @@ pub struct StartOptions {
     /// points, initial values and the zeros of joint coordinates are still computed from the pose
     /// in the definition.
     pub poses: Vec<StartPose>,
-    /// The state at which the mechanism starts, in place of `poses` and of given velocities. Reference
-    /// points and initial values are computed as for `poses`.
+    /// The state at which the mechanism starts, in place of `poses` and of given velocities.
+    /// Reference points and initial values are computed as for `poses`.
     pub state: Option<State>,
 }
 

@@ -79,8 +79,8 @@ pub fn posed(scene: &Scene, poses: &[FramePose]) -> Result<String, KeyError> {
 }
 
 /// Returns the text of a scene that starts at a time (s), with its bodies in these poses and with
-/// these velocities of their frames, in the order of the bodies. In space, angular velocities are in
-/// ground axes.
+/// these velocities of their frames, in the order of the bodies. In space, angular velocities are
+/// in ground axes.
 ///
 /// ```
 /// use model::FramePose;

@@ -167,9 +167,10 @@ fn a_restarted_run_continues() {
     assert!(first.at(0.0, &[0.1; 6], v).is_err());
 }
 
-/// A controller sees the whole state at each evaluation, and is called once for each evaluation. Two
-/// masses on a line attract each other with a force that depends on both positions and velocities:
-/// m·ẍ = −k·(x − y) − c·(ẋ − ẏ) for the difference, so u = x − y solves m/2·ü + c·u̇ + k·u = 0.
+/// A controller sees the whole state at each evaluation, and is called once for each evaluation.
+/// Two masses on a line attract each other with a force that depends on both positions and
+/// velocities: m·ẍ = −k·(x − y) − c·(ẋ − ẏ) for the difference, so u = x − y solves m/2·ü + c·u̇ +
+/// k·u = 0.
 #[test]
 fn a_controller_sees_the_whole_state() {
     use std::sync::atomic::AtomicU64;
