@@ -1,5 +1,5 @@
-//! A run that Python advances step by step. A thread owns the mechanism and its motion, and does the
-//! work of each call. The calling thread checks for signals.
+//! A run that Python advances step by step. A thread owns the mechanism and its motion, and does
+//! the work of each call. The calling thread checks for signals.
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, channel};
