@@ -87,8 +87,13 @@ pub(crate) fn read<'a>(
     for section in &sections {
         reader.tendons(*section);
     }
-    for section in &sections {
+    // Keyframes refer to all joints, also to the joints that sections after them add.
+    let is_keyframes = |section: &&Element| section.name() == "keyframe";
+    for section in sections.iter().filter(|section| !is_keyframes(section)) {
         reader.section(*section);
+    }
+    for section in sections.iter().filter(is_keyframes) {
+        reader.keyframes(*section);
     }
     reader.model
 }
@@ -150,7 +155,6 @@ impl<'a> Reader<'a, '_> {
         let left: &'static str = match section.name() {
             "actuator" | "tendon" => "",
             "equality" => return self.equalities(section),
-            "keyframe" => return self.keyframes(section),
             "sensor" => "sensors",
             "contact" => "pairs and exclusions of contacts",
             "deformable" => "deformable bodies",

@@ -1,5 +1,6 @@
 //! Tests of files written for this project as scenes, and of files that are rejected.
 
+mod details;
 mod drives;
 mod extensions;
 mod fuzz;

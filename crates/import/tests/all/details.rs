@@ -1,0 +1,74 @@
+//! Details of the formats that decide numbers of the scene: the order of sections, defaults, frames
+//! of welds, bounds of masses, and springs and couplings of links that the import moves.
+
+use pfaff_import::{ImportedScene, Options};
+
+use super::{first, import_text, numbers, read, refused, value};
+
+const PRECISION: f64 = 1e-12;
+
+/// Imports an MJCF file with these sections.
+fn mjcf(sections: &str) -> ImportedScene {
+    import_text(&format!("<mujoco>{sections}</mujoco>"), &Options::default())
+}
+
+/// Imports an MJCF file with these sections, and starts at the keyframe `k`.
+fn at_keyframe(sections: &str) -> ImportedScene {
+    import_text(&format!("<mujoco>{sections}</mujoco>"), &start())
+}
+
+fn start() -> Options {
+    Options {
+        keyframe: Some("k".to_owned()),
+        ..Options::default()
+    }
+}
+
+/// Requires numbers of a key of a scene.
+fn close(done: &ImportedScene, [table, name, key]: [&str; 3], expected: &[f64]) {
+    let found = value(&done.scene, table, name, key);
+    let found = found.unwrap_or_else(|| panic!("{name}.{key}:\n{}", done.scene));
+    let found = match found.split_once("quaternion = ") {
+        Some((_, quaternion)) => numbers(quaternion),
+        None if found.contains('[') => numbers(&found),
+        None => vec![found.parse().expect("a number")],
+    };
+    let near = |(a, b): (&f64, &f64)| (a - b).abs() < PRECISION;
+    let fits = found.len() == expected.len() && found.iter().zip(expected).all(near);
+    assert!(fits, "{name}.{key}: {found:?}, expected {expected:?}");
+}
+
+/// Requires a text of a key of a scene.
+fn is(done: &ImportedScene, [table, name, key]: [&str; 3], expected: &str) {
+    let found = value(&done.scene, table, name, key);
+    assert_eq!(found.as_deref(), Some(expected), "{}", done.scene);
+}
+
+/// The remark that contains these words.
+fn remarks(done: &ImportedScene, words: &str) {
+    let found = done.remarks.iter().any(|remark| remark.contains(words));
+    assert!(found, "{words}: {:?}", done.remarks);
+}
+
+const BARS: &str = "<worldbody>\
+    <body name='a'><joint name='a' axis='0 0 1'/><geom size='0.1'/></body>\
+    <body name='b' pos='2 0 0'><joint name='b' axis='0 0 1'/><geom size='0.1'/></body></worldbody>";
+
+/// The order of sections has no meaning in MJCF. Loop joints belong to the joints of a keyframe.
+#[test]
+fn keyframes_may_precede_constraints() {
+    let key = "<keyframe><key name='k' qpos='0.1 -0.1'/></keyframe>";
+    let loops = "<equality><connect body1='a' body2='b' anchor='1 0 0'/></equality>";
+    for weld in [loops, &loops.replace("connect", "weld")] {
+        let [early, late] =
+            [[key, BARS, weld], [BARS, weld, key]].map(|s| at_keyframe(&s.concat()));
+        assert_eq!(early.scene, late.scene);
+        // Rotation about z by 0.1 rad.
+        let (sin, cos) = 0.05_f64.sin_cos();
+        assert!(early.scene.contains("start = {"), "{}", early.scene);
+        let head = value(&early.scene, "body", "a", "start").expect("a start");
+        let (_, turned) = head.split_once("quaternion = ").expect("a quaternion");
+        let found = numbers(turned);
+        assert!((found[0] - cos).abs() < PRECISION && (found[3] - sin).abs() < PRECISION);
+    }
+}
