@@ -86,7 +86,8 @@ impl<'a> Reader<'a, '_> {
     /// `<connect>` and `<weld>`.
     fn closure(&mut self, element: Element<'a>, name: String) -> Option<Joint> {
         let is_weld = element.name() == "weld";
-        let kind = if is_weld {
+        let turns = is_weld && self.turns_freely(element, &name)?;
+        let kind = if is_weld && !turns {
             JointKind::Fixed
         } else {
             JointKind::Spherical
@@ -102,7 +103,7 @@ impl<'a> Reader<'a, '_> {
             let [a, b] = [self.site_of(&a), self.site_of(&b)];
             let ((first, a), (second, b)) = (a?, b?);
             let points = [a.translation.vector, b.translation.vector];
-            let frames = is_weld.then_some([a.rotation, b.rotation]);
+            let frames = (kind == JointKind::Fixed).then_some([a.rotation, b.rotation]);
             return self
                 .between(element, [first, second])
                 .then(|| joint([first, second], points, frames));
@@ -154,13 +155,30 @@ impl<'a> Reader<'a, '_> {
                 Some(joint([first, second], [at, anchor], None))
             }
             Some(n) => {
+                // The position of `relpose` is the position of the anchor point of the second body.
+                let at = Vector3::new(n[0], n[1], n[2]);
                 let turned = quaternion([n[3], n[4], n[5], n[6]]);
-                let pose = Isometry3::from_parts(Vector3::new(n[0], n[1], n[2]).into(), turned);
-                let at = (pose * Point3::from(anchor)).coords;
-                let frames = Some([turned, Default::default()]);
+                let frames = (kind == JointKind::Fixed).then_some([turned, Default::default()]);
                 Some(joint([first, second], [at, anchor], frames))
             }
         }
+    }
+
+    /// Whether a weld has the factor zero for its rotations, so that it only holds the anchor point.
+    /// Other factors change the softness of the weld, but not the exact constraint.
+    fn turns_freely(&mut self, element: Element<'a>, name: &str) -> Option<bool> {
+        let Some(value) = element.attribute("torquescale") else {
+            return Some(false);
+        };
+        let findings = &mut *self.source.findings;
+        let turns = findings.number(&value, NumberKind::Other)? == 0.0;
+        if turns {
+            findings.remarks.push(format!(
+                "The weld `{name}` (line {}) has `torquescale=\"0\"`: it holds only its anchor point.",
+                element.line()
+            ));
+        }
+        Some(turns)
     }
 
     fn between(&mut self, element: Element<'a>, [first, second]: [Option<usize>; 2]) -> bool {

@@ -127,9 +127,9 @@ const ENTRIES: &[Entry] = &[
     .idle("solref solimp"),
     Entry::new(
         "weld",
-        "name class active body1 body2 site1 site2 anchor relpose",
+        "name class active body1 body2 site1 site2 anchor relpose torquescale",
     )
-    .idle("solref solimp torquescale"),
+    .idle("solref solimp"),
     Entry::new("equality/joint", "name class active joint1 joint2 polycoef").idle("solref solimp"),
     Entry::new(
         "equality/tendon",

@@ -72,3 +72,46 @@ fn keyframes_may_precede_constraints() {
         assert!((found[0] - cos).abs() < PRECISION && (found[3] - sin).abs() < PRECISION);
     }
 }
+
+/// `relpose` is the position of the anchor point, which is at the origin of the world here.
+#[test]
+fn the_position_of_a_weld_is_that_of_its_anchor() {
+    let weld = |attributes: &str| {
+        mjcf(&format!(
+            "<worldbody><body name='b' pos='0 1 0'><freejoint/><geom size='0.1'/></body></worldbody>\
+             <equality><weld name='w' body1='world' body2='b' {attributes}/></equality>"
+        ))
+    };
+    let done = weld("anchor='0 -1 0' relpose='0 0 0 1 0 0 0'");
+    close(&done, ["body", "b", "position"], &[0.0, 1.0, 0.0]);
+    close(&done, ["marker", "w first", "point"], &[0.0; 3]);
+    close(&done, ["marker", "w second", "point"], &[0.0, -1.0, 0.0]);
+    read(&done);
+    // Without an anchor, it is the position of the body.
+    let done = weld("relpose='0 1 0 1 0 0 0'");
+    close(&done, ["marker", "w first", "point"], &[0.0, 1.0, 0.0]);
+}
+
+/// A factor of zero removes the rotations of a weld. Other factors only change its softness.
+#[test]
+fn a_weld_without_torques_is_a_ball_joint() {
+    let weld = |attributes: &str| {
+        mjcf(&format!(
+            "<worldbody><body name='b' pos='1 2 3'><freejoint/><geom size='0.1'/></body></worldbody>\
+             <equality><weld name='w' body1='b' body2='world' anchor='1 2 3' {attributes}/></equality>"
+        ))
+    };
+    let done = weld("torquescale='0'");
+    is(&done, ["joint", "w", "type"], "\"spherical\"");
+    is(
+        &done,
+        ["joint", "w", "points"],
+        "{ \"b\" = [0.0, 0.0, 0.0], \"ground\" = [1.0, 2.0, 3.0] }",
+    );
+    remarks(&done, "The weld `w` (line 1) has `torquescale=\"0\"`");
+    read(&done);
+    let done = weld("torquescale='0' relpose='-1 -2 -3 0 1 0 0'");
+    is(&done, ["joint", "w", "type"], "\"spherical\"");
+    let done = weld("torquescale='0.5'");
+    is(&done, ["joint", "w", "type"], "\"fixed\"");
+}
