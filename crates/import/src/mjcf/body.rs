@@ -66,7 +66,8 @@ impl<'a> Reader<'a, '_> {
             None => item.class,
         };
         let get = |key: &str| element.attribute(key);
-        let own = item.frame * self.source.compiler.pose(get, self.source.findings);
+        let stated = self.source.compiler.pose(get, self.source.findings);
+        let own = item.frame * stated;
         let name = element
             .attribute("name")
             .map(|name| name.text.trim().to_owned());
@@ -89,7 +90,7 @@ impl<'a> Reader<'a, '_> {
             .filter(|item| matches!(item.element.name(), "joint" | "freejoint"))
             .filter_map(|item| self.freedom(item, &name, parent.is_none()))
             .collect();
-        let mass = self.source.mass(element, &items);
+        let mass = self.source.mass(element, &stated, &items);
         let held = element.attribute("gravcomp");
         let held = held.and_then(|value| self.source.findings.number(&value, NumberKind::Other));
         let link = self.chain(&name, own, freedoms, parent);

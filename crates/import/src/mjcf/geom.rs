@@ -162,12 +162,13 @@ impl<'a> Source<'a, '_> {
 
     /// `None` if the geom has no mass.
     fn weight_of(&mut self, get: &impl Fn(&str) -> Option<Value<'a>>) -> Option<Weight> {
-        if let Some(group) = get("group") {
-            let group = self.findings.number(&group, NumberKind::Other)?;
-            let [first, last] = self.compiler.groups;
-            if group < first || group > last {
-                return None;
-            }
+        let group = match get("group") {
+            Some(group) => self.findings.number(&group, NumberKind::Other)?,
+            None => 0.0,
+        };
+        let [first, last] = self.compiler.groups;
+        if group < first || group > last {
+            return None;
         }
         let given = match get("mass") {
             Some(value) => Some(self.findings.not_negative(&value, NumberKind::Other)?),

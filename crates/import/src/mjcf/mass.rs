@@ -10,16 +10,52 @@ use crate::xml::Element;
 
 impl<'a> Source<'a, '_> {
     /// Returns the mass of a body: the mass that the file states for the body, or the mass of the
-    /// geoms.
-    pub(super) fn mass(&mut self, body: Element<'a>, items: &[Item<'a>]) -> Mass {
+    /// geoms. `pose` is the pose that the body states.
+    ///
+    /// If a body has no mass except by the bounds of `<compiler>`, the inertial frame of MuJoCo is a
+    /// copy of the attributes of the body: it has the same pose relative to the body as the body
+    /// has relative to the surrounding element.
+    pub(super) fn mass(
+        &mut self,
+        body: Element<'a>,
+        pose: &Isometry3<f64>,
+        items: &[Item<'a>],
+    ) -> Mass {
         let own = items.iter().find(|item| item.element.name() == "inertial");
-        let own = own.filter(|_| self.compiler.from_geoms != FromGeoms::Always);
-        let mass = match own {
-            Some(item) => self.inertial(item).unwrap_or_default(),
-            None if self.compiler.from_geoms == FromGeoms::Never => Mass::default(),
-            None => self.mass_of_geoms(body, items),
+        let from_geoms = self.compiler.from_geoms;
+        let uses_geoms = match own {
+            Some(_) => from_geoms == FromGeoms::Always,
+            None => from_geoms != FromGeoms::Never,
         };
+        let mut mass = Mass::default();
+        if uses_geoms {
+            mass = self.mass_of_geoms(body, items);
+        }
+        // MuJoCo uses the inertia of the file for bodies whose geoms have no mass.
+        if let (0.0, Some(item)) = (mass.mass, own) {
+            mass = self.inertial(item).unwrap_or_default();
+        }
+        if mass.is_nothing() && own.is_none() {
+            return self.bound_alone(body, pose);
+        }
         self.bounded(mass)
+    }
+
+    /// The mass of a body to which only the bounds of `<compiler>` give a mass.
+    fn bound_alone(&mut self, body: Element<'a>, pose: &Isometry3<f64>) -> Mass {
+        let mass = self.bounded(Mass::default());
+        if mass.mass == 0.0 {
+            return mass;
+        }
+        if pose.translation.vector != Vector3::zeros() {
+            let name = body.attribute("name").map_or("", |name| name.text.trim());
+            let at = pose.translation.vector;
+            self.findings.remarks.push(format!(
+                "Body `{name}` (line {}) has only the mass of `boundmass`; as in MuJoCo, its centre is at its `pos` [{}, {}, {}] in its own axes.",
+                body.line(), at.x, at.y, at.z
+            ));
+        }
+        mass.seen(pose)
     }
 
     fn inertial(&mut self, item: &Item<'a>) -> Option<Mass> {

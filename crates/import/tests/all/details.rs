@@ -115,3 +115,48 @@ fn a_weld_without_torques_is_a_ball_joint() {
     let done = weld("torquescale='0.5'");
     is(&done, ["joint", "w", "type"], "\"fixed\"");
 }
+
+/// `inertiafromgeom="true"` replaces the inertia of the file only if geoms have mass.
+#[test]
+fn an_inertial_remains_without_geoms() {
+    let body = |compiler: &str, geom: &str| {
+        mjcf(&format!(
+            "<compiler {compiler}/><worldbody><body name='b'><joint axis='1 0 0'/>\
+             <inertial pos='0 0.5 0' mass='2' diaginertia='0.1 0.1 0.1'/>{geom}</body></worldbody>"
+        ))
+    };
+    let all = "inertiafromgeom='true'";
+    for (compiler, geom, mass) in [
+        (all.to_owned(), "", 2.0),
+        (all.to_owned(), "<geom size='0.1' mass='0'/>", 2.0),
+        (all.to_owned(), "<geom size='0.1' mass='3'/>", 3.0),
+        // A geom without a group is in group 0.
+        (
+            format!("{all} inertiagrouprange='1 2'"),
+            "<geom size='0.1' mass='3'/>",
+            2.0,
+        ),
+        (
+            format!("{all} inertiagrouprange='1 2'"),
+            "<geom size='0.1' mass='3' group='2'/>",
+            3.0,
+        ),
+    ] {
+        let done = body(&compiler, geom);
+        close(&done, ["body", "b", "mass"], &[mass]);
+    }
+    close(&body(all, ""), ["body", "b", "centre"], &[0.0, 0.5, 0.0]);
+}
+
+/// MuJoCo 4.0 has `body_ipos = [0, 0.3, 1]` for this body, also within a frame.
+#[test]
+fn a_body_without_mass_has_its_bounds_at_its_position() {
+    let compiler = "<compiler boundmass='0.1' boundinertia='0.01'/>";
+    let own = "<body name='b' pos='0 0.3 1'><joint axis='1 0 0'/></body>";
+    for around in [own.to_owned(), format!("<frame pos='1 0 0'>{own}</frame>")] {
+        let done = mjcf(&format!("{compiler}<worldbody>{around}</worldbody>"));
+        close(&done, ["body", "b", "mass"], &[0.1]);
+        close(&done, ["body", "b", "centre"], &[0.0, 0.3, 1.0]);
+        remarks(&done, "Body `b` (line 1) has only the mass of `boundmass`");
+    }
+}
