@@ -114,9 +114,7 @@ pub(crate) fn describe(model: &mut Model, found: &Assembly) -> Vec<String> {
         if keeps && !joint.places && joint.frames.is_none() {
             joint.frames = Some([a.inverse() * b, Default::default()]);
         }
-        for c in 0..2 {
-            joint.zero[c] += found.moved[k][c];
-        }
+        joint.redescribe(found.moved[k]);
         let turned = found.displacements[k] != Isometry3::identity();
         if joint.kind == JointKind::Spherical && joint.loads[0].stiffness != 0.0 && turned {
             joint.loads[0].stiffness = 0.0;

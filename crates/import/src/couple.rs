@@ -116,9 +116,7 @@ pub(crate) fn settle(model: &mut Model, findings: &mut Findings) {
     }
     let mut names = Vec::new();
     for (joint, shift) in model.joints.iter_mut().zip(&shifts) {
-        for k in 0..2 {
-            joint.zero[k] += shift[k];
-        }
+        joint.redescribe(*shift);
         if shift.iter().any(|x| *x != 0.0) {
             names.push(format!("`{}`", joint.name));
         }

@@ -103,6 +103,9 @@ pub(crate) struct Joint {
     pub(crate) frames: Option<[UnitQuaternion<f64>; 2]>,
     /// Values of the coordinates at the described pose.
     pub(crate) zero: [f64; 2],
+    /// Changes of the coordinates from the pose at which the points of the joint coincide to the
+    /// described pose. The import moves links to close loops and to satisfy couplings.
+    pub(crate) described: [f64; 2],
     /// Changes of the coordinates from the described pose to the initial pose.
     pub(crate) moved: [f64; 2],
     pub(crate) loads: [Load; 2],
@@ -130,9 +133,18 @@ impl Joint {
             cross: Vector3::z(),
             frames: None,
             zero: [0.0; 2],
+            described: [0.0; 2],
             moved: [0.0; 2],
             loads: [Load::default(); 2],
             is_active: true,
+        }
+    }
+
+    /// Records that the described pose has changed by these changes of the coordinates.
+    pub(crate) fn redescribe(&mut self, change: [f64; 2]) {
+        for (k, change) in change.into_iter().enumerate() {
+            self.zero[k] += change;
+            self.described[k] += change;
         }
     }
 }

@@ -396,13 +396,15 @@ impl<'a> Writer<'a> {
         let of = self.coordinate(k, coordinate).to_owned();
         let name = self.elements.free(&format!("{of} spring"));
         let of = |list: &[f64; 2]| list.get(coordinate).copied().unwrap_or(0.0);
-        // The initial state does not determine the number of full revolutions of an angle, so the
-        // full revolutions are added to the free angle of the spring.
-        let turns = match joint.kind.measures().get(coordinate) {
-            Some(&"displacement") | None => 0.0,
-            Some(_) => (of(&joint.moved) / std::f64::consts::TAU).round(),
+        // A displacement is zero where the points of the joint coincide, an angle at the described
+        // pose. The initial state does not determine the number of full revolutions of an angle, so
+        // the full revolutions are added to the free angle of the spring.
+        let turns = of(&joint.moved) / std::f64::consts::TAU;
+        let free = match joint.kind.measures().get(coordinate) {
+            Some(&"displacement") => reference - (of(&joint.zero) - of(&joint.described)),
+            Some(_) => reference - of(&joint.zero) - turns.round() * std::f64::consts::TAU,
+            None => reference,
         };
-        let free = reference - of(&joint.zero) - turns * std::f64::consts::TAU;
         let Some(measure) = joint.kind.measures().get(coordinate) else {
             let [first, second] = joint.links.map(|link| text(self.link(link)));
             let [a, b] = joint.points.map(vector);
@@ -426,14 +428,7 @@ impl<'a> Writer<'a> {
         if *measure == "displacement" {
             self.needs_format = true;
             self.drive(&name, (k, coordinate), out);
-            let sign = if free < 0.0 { '+' } else { '-' };
-            let (k, c, free) = (number(stiffness), number(damping), number(free.abs()));
-            let law = match (stiffness != 0.0, damping != 0.0) {
-                (true, false) => format!("-{k}*(measure {sign} {free})"),
-                (false, _) => format!("-{c}*rate"),
-                (true, true) => format!("-{k}*(measure {sign} {free}) - {c}*rate"),
-            };
-            key(out, "force", &text(&law));
+            key(out, "force", &text(&law(stiffness, damping, free)));
             return;
         }
         table(out, "force", &name);
@@ -494,6 +489,17 @@ impl<'a> Writer<'a> {
             &format!("[{}, {}]", text(&measures[0]), text(&measures[1])),
         );
         key(out, "ratio", "1.0");
+    }
+}
+
+/// The law of a spring with this free length, and of a damper.
+fn law(stiffness: f64, damping: f64, free: f64) -> String {
+    let sign = if free < 0.0 { '+' } else { '-' };
+    let (k, c, free) = (number(stiffness), number(damping), number(free.abs()));
+    match (stiffness != 0.0, damping != 0.0) {
+        (true, false) => format!("-{k}*(measure {sign} {free})"),
+        (false, _) => format!("-{c}*rate"),
+        (true, true) => format!("-{k}*(measure {sign} {free}) - {c}*rate"),
     }
 }
 

@@ -160,3 +160,69 @@ fn a_body_without_mass_has_its_bounds_at_its_position() {
         remarks(&done, "Body `b` (line 1) has only the mass of `boundmass`");
     }
 }
+
+/// The spring −2·q has its free length at q = 0, where the points of the slide coincide. The
+/// coupling describes the slide at q = −0.5.
+#[test]
+fn springs_of_slides_refer_to_coincident_points() {
+    let bodies = |loads: &str| {
+        format!(
+            "<worldbody><body name='a'><joint name='a' axis='0 0 1'/><geom size='0.1'/></body>\
+             <body name='b' pos='2 0 0'><joint name='b' type='slide' axis='1 0 0' {loads}/>\
+             <geom size='0.1'/></body></worldbody><equality><joint joint1='b' joint2='a' \
+             polycoef='-0.5 1 0 0 0'/></equality>"
+        )
+    };
+    let done = mjcf(&bodies("stiffness='2'"));
+    close(&done, ["body", "b", "position"], &[1.5, 0.0, 0.0]);
+    is(
+        &done,
+        ["drive", "b spring", "force"],
+        "\"-2.0*(measure - 0.0)\"",
+    );
+    // With `ref`, the coincident points have q = 0.25: the free length 0.75 is a measure of 0.5.
+    let done = mjcf(&bodies(
+        "stiffness='2' damping='3' ref='0.25' springref='0.75'",
+    ));
+    is(
+        &done,
+        ["drive", "b spring", "force"],
+        "\"-2.0*(measure - 0.5) - 3.0*rate\"",
+    );
+}
+
+/// The search for closed loops moves the slide to q = 0.9 or q = −0.1; the spring stays at q = 0.
+#[test]
+fn springs_of_slides_in_loops_refer_to_coincident_points() {
+    let done = mjcf(
+        "<worldbody><body name='a'><joint name='a' type='slide' axis='1 0 0' stiffness='10'/>\
+         <geom size='0.1' mass='1'/><site name='sa'/></body>\
+         <body name='b' pos='0.4 0 0'><joint name='b' axis='0 1 0'/>\
+         <geom size='0.1' mass='1' pos='0.5 0 0'/><site name='sb' pos='0.5 0 0'/></body></worldbody>\
+         <equality><connect site1='sa' site2='sb'/></equality>",
+    );
+    let at = numbers(&value(&done.scene, "body", "a", "position").expect("moved"));
+    assert!(
+        (at[0] - 0.9).abs() < 1e-9 || (at[0] + 0.1).abs() < 1e-9,
+        "{at:?}"
+    );
+    is(
+        &done,
+        ["drive", "a spring", "force"],
+        "\"-10.0*(measure - 0.0)\"",
+    );
+}
+
+/// The angle of a hinge is zero at the described pose, which the coupling puts at q = −0.5: the
+/// spring without load at q = 0 has a free angle of 0.5 rad.
+#[test]
+fn springs_of_hinges_refer_to_the_described_pose() {
+    let done = mjcf(&format!(
+        "<compiler angle='radian'/>{}<equality><joint joint1='b' joint2='a' \
+         polycoef='-0.5 1 0 0 0'/></equality>",
+        BARS.replace("name='b' axis", "name='b' stiffness='2' axis")
+    ));
+    close(&done, ["force", "b spring", "free_angle"], &[0.5]);
+    let (sin, cos) = 0.25_f64.sin_cos();
+    close(&done, ["body", "b", "orientation"], &[cos, 0.0, 0.0, -sin]);
+}
