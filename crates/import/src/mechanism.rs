@@ -18,8 +18,47 @@ pub(crate) struct Link {
     pub(crate) pose: Isometry3<f64>,
     /// Mass in the axes of the link.
     pub(crate) mass: Mass,
-    /// Share of the weight that is compensated: `gravcomp` of MuJoCo.
-    pub(crate) held_weight: f64,
+    /// Compensated weights of the link and of the links merged into it.
+    pub(crate) held: Vec<HeldWeight>,
+}
+
+/// A weight that is compensated: `gravcomp` of MuJoCo.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct HeldWeight {
+    /// Share of the weight, multiplied by the mass (kg).
+    pub(crate) mass: f64,
+    /// Centre of mass in the axes of the link (m).
+    pub(crate) centre: Vector3<f64>,
+}
+
+impl HeldWeight {
+    /// The compensated weight of a link: a share of the weight of its mass.
+    pub(crate) fn of(share: f64, mass: &Mass) -> Vec<Self> {
+        let held = Self {
+            mass: share * mass.mass,
+            centre: mass.centre,
+        };
+        { [held].into_iter() }
+            .filter(|held| held.mass != 0.0)
+            .collect()
+    }
+
+    /// Combines weights of the same sign to one weight at their common centre. Weights of different
+    /// signs can form a pure torque, which has no centre.
+    pub(crate) fn combined(parts: &[Self]) -> Vec<Self> {
+        let (up, down): (Vec<Self>, Vec<Self>) = parts.iter().partition(|part| part.mass > 0.0);
+        let sum = |parts: &[Self]| -> Option<Self> {
+            let (first, rest) = parts.split_first()?;
+            Some(rest.iter().fold(*first, Self::plus))
+        };
+        [sum(&up), sum(&down)].into_iter().flatten().collect()
+    }
+
+    fn plus(self, other: &Self) -> Self {
+        let mass = self.mass + other.mass;
+        let centre = (self.centre * self.mass + other.centre * other.mass) / mass;
+        Self { mass, centre }
+    }
 }
 
 /// Degrees of freedom of the second link relative to the first link.

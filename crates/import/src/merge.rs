@@ -3,7 +3,7 @@
 use nalgebra::Isometry3;
 
 use crate::findings::Findings;
-use crate::mechanism::{Frame, Joint, JointKind, Model};
+use crate::mechanism::{Frame, HeldWeight, Joint, JointKind, Model};
 use crate::pose::{Motion, placing};
 
 /// Position of the axes of a link after merging: the host into which the link was merged, and the
@@ -116,14 +116,12 @@ fn hosts(model: &Model) -> Vec<Host> {
 fn absorb(model: &mut Model, link: usize, (host, pose): &Host) {
     let own = model.links[link].clone();
     if let Some(host) = *host {
-        let seen = own.mass.seen(pose);
         let whole = &mut model.links[host];
-        // The gravity compensation of the merged body is the mean of both shares, weighted by mass.
-        let held = whole.held_weight * whole.mass.mass + own.held_weight * seen.mass;
-        whole.mass = whole.mass.plus(&seen);
-        if held != 0.0 && whole.mass.mass > 0.0 {
-            whole.held_weight = held / whole.mass.mass;
-        }
+        whole.mass = whole.mass.plus(&own.mass.seen(pose));
+        whole.held.extend(own.held.iter().map(|held| HeldWeight {
+            mass: held.mass,
+            centre: pose.translation.vector + pose.rotation * held.centre,
+        }));
     }
     model.frames.push(Frame {
         name: own.name,

@@ -15,7 +15,7 @@ use crate::extensions;
 use crate::files::Files;
 use crate::findings::{Fault, Findings, NumberKind};
 use crate::limits::APART;
-use crate::mechanism::{Coupling, Frame, JointKind, Link, Load, Model};
+use crate::mechanism::{Coupling, Frame, HeldWeight, JointKind, Link, Load, Model};
 use crate::solids::{FRICTION, assume_gravity, find_tree, joint_between, with_second_axis};
 use crate::xml::{Element, Value};
 pub(crate) use frames::Frames;
@@ -104,7 +104,7 @@ impl<'r> ModelReader<'r> {
         for item in part.items_of("link") {
             let name = self.names.place(&part.path, item.name);
             let pose = frames.pose(item.name).unwrap_or_default();
-            let held_weight = held_weight(item.element, &name, findings);
+            let share = held_share(item.element, &name, findings);
             let link = ModelLink {
                 element: item.element,
                 name: &name,
@@ -119,7 +119,7 @@ impl<'r> ModelReader<'r> {
                 name: name.clone(),
                 pose,
                 mass,
-                held_weight,
+                held: HeldWeight::of(share, &mass),
             });
             if is_static {
                 let (links, here) = ([None, Some(number)], Isometry3::identity());
@@ -202,7 +202,7 @@ fn unsupported(element: Element, message: &str, findings: &mut Findings) {
 }
 
 /// Returns the compensated share of the weight of a link, and reports its contacts.
-fn held_weight(link: Element, name: &str, findings: &mut Findings) -> f64 {
+fn held_share(link: Element, name: &str, findings: &mut Findings) -> f64 {
     for collision in link.children().filter(|child| child.name() == "collision") {
         findings.leave_element("contacts of links", collision, name);
     }

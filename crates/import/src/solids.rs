@@ -83,7 +83,7 @@ pub(crate) fn with_second_axis(
         name: format!("between axes of {}", joint.name),
         pose,
         mass: Default::default(),
-        held_weight: 0.0,
+        held: Vec::new(),
     });
     let mut outer = joint.clone();
     outer.kind = JointKind::Revolute;

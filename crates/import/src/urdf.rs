@@ -151,7 +151,7 @@ fn links(root: Element, model: &mut Model, findings: &mut Findings) -> HashMap<S
             name,
             pose: Isometry3::identity(),
             mass,
-            held_weight: 0.0,
+            held: Vec::new(),
         });
     }
     names

@@ -6,7 +6,7 @@ use nalgebra::{Isometry3, UnitQuaternion, Vector3};
 
 use crate::findings::{Findings, Omission};
 use crate::limits::WIDTH;
-use crate::mechanism::{Joint, JointKind, Load, Model};
+use crate::mechanism::{HeldWeight, Joint, JointKind, Load, Model};
 use crate::names::Names;
 use crate::pose::{Motion, along_z};
 
@@ -370,13 +370,13 @@ impl<'a> Writer<'a> {
             }
         }
         for (k, link) in self.model.links.iter().enumerate() {
-            if link.held_weight != 0.0 && link.mass.mass != 0.0 {
+            for held in HeldWeight::combined(&link.held) {
                 let name = format!("held weight of {}", self.links[k]);
                 table(out, "force", &self.elements.free(&name));
                 key(out, "type", "\"point-force\"");
                 key(out, "body", &text(&self.links[k]));
-                key(out, "point", &vector(link.mass.centre));
-                let force = -self.model.gravity * (link.mass.mass * link.held_weight);
+                key(out, "point", &vector(held.centre));
+                let force = -self.model.gravity * held.mass;
                 key(out, "force", &vector(force));
             }
         }

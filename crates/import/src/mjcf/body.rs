@@ -8,7 +8,7 @@ use super::source::Item;
 use crate::findings::{Fault, Findings, NumberKind, unit};
 use crate::limits::{DEEPEST, PERPENDICULAR};
 use crate::mass::Mass;
-use crate::mechanism::{Frame, Joint, JointKind, Link, Load};
+use crate::mechanism::{Frame, HeldWeight, Joint, JointKind, Link, Load};
 use crate::solids::FRICTION;
 use crate::xml::{Element, Value};
 
@@ -95,7 +95,7 @@ impl<'a> Reader<'a, '_> {
         let held = held.and_then(|value| self.source.findings.number(&value, NumberKind::Other));
         let link = self.chain(&name, own, freedoms, parent);
         self.model.links[link].mass = mass;
-        self.model.links[link].held_weight = held.unwrap_or(0.0);
+        self.model.links[link].held = HeldWeight::of(held.unwrap_or(0.0), &mass);
         if self.bodies.insert(name.clone(), Some(link)).is_some() {
             let message = format!("the body `{name}` is defined twice");
             self.source.findings.of(Fault::Twice, element, message);
@@ -204,7 +204,7 @@ impl<'a> Reader<'a, '_> {
             name,
             pose,
             mass: Mass::default(),
-            held_weight: 0.0,
+            held: Vec::new(),
         });
         self.model.links.len() - 1
     }
@@ -392,6 +392,7 @@ impl<'a> Reader<'a, '_> {
         if sum > 0.0 {
             for link in &mut self.model.links {
                 link.mass = link.mass.scaled(total / sum);
+                { link.held.iter_mut() }.for_each(|held| held.mass *= total / sum);
             }
             let remark = format!(
                 "All masses are multiplied by {:.6} (settotalmass).",

@@ -226,3 +226,31 @@ fn springs_of_hinges_refer_to_the_described_pose() {
     let (sin, cos) = 0.25_f64.sin_cos();
     close(&done, ["body", "b", "orientation"], &[cos, 0.0, 0.0, -sin]);
 }
+
+/// Arm of 1 kg with its centre at x = 0.5, and a fixed tool of 1 kg at x = 1.
+#[test]
+fn compensated_weights_act_at_their_own_centre() {
+    let arm = |own: &str, tool: &str| {
+        mjcf(&format!(
+            "<worldbody><body name='arm' {own}><joint name='j' axis='0 1 0'/>\
+             <geom size='0.1' pos='0.5 0 0' mass='1'/><body name='tool' pos='1 0 0' {tool}>\
+             <geom size='0.1' mass='1'/></body></body></worldbody>"
+        ))
+    };
+    let held = "held weight of arm";
+    for (own, tool, x, force) in [
+        ("", "gravcomp='1'", 1.0, 9.81),
+        ("gravcomp='1'", "", 0.5, 9.81),
+        // (1·0.5 + 0.5·1)/1.5 = 2/3
+        ("gravcomp='1'", "gravcomp='0.5'", 2.0 / 3.0, 1.5 * 9.81),
+    ] {
+        let done = arm(own, tool);
+        close(&done, ["force", held, "point"], &[x, 0.0, 0.0]);
+        close(&done, ["force", held, "force"], &[0.0, 0.0, force]);
+        read(&done);
+    }
+    // Opposite weights form a torque, which needs two forces.
+    let done = arm("gravcomp='1'", "gravcomp='-1'");
+    assert_eq!(done.scene.matches("type = \"point-force\"").count(), 2);
+    assert!(!arm("", "").scene.contains("point-force"));
+}
