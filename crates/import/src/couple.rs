@@ -3,9 +3,10 @@
 
 use std::collections::BTreeMap;
 
-use nalgebra::Isometry3;
+use nalgebra::{DMatrix, DVector, Isometry3};
 
 use crate::findings::Findings;
+use crate::limits::{ASSEMBLED, ITERATIONS, MOST_COORDINATES, OPEN};
 use crate::mechanism::{JointKind, Model};
 use crate::pose::{JointPlacement, displaced};
 
@@ -68,7 +69,23 @@ pub(crate) fn follow(model: &Model, given: &[(usize, usize, f64)]) -> Vec<(usize
 
 /// Moves the links whose coordinates couplings determine, and converts the polynomials of the
 /// couplings to coordinate changes.
-pub(crate) fn settle(model: &mut Model, findings: &mut Findings) {
+///
+/// # Errors
+/// The name of a coupling that is not satisfied at the position that was found, and the error.
+pub(crate) fn settle(model: &mut Model, findings: &mut Findings) -> Result<(), (String, f64)> {
+    let mut shifts = chained(model);
+    if worst(model, &shifts).is_some() {
+        solve(model, &mut shifts);
+        if let Some((coupling, error)) = worst(model, &shifts) {
+            return Err((model.couplings[coupling].name.clone(), error));
+        }
+    }
+    describe(model, &shifts, findings);
+    Ok(())
+}
+
+/// Changes of the coordinates if each coupling determines its dependent coordinate from the other.
+fn chained(model: &Model) -> Vec<[f64; 2]> {
     let mut shifts = vec![[0.0; 2]; model.joints.len()];
     // The number of rounds is at least the number of couplings in a chain, so every chain is
     // complete.
@@ -85,6 +102,86 @@ pub(crate) fn settle(model: &mut Model, findings: &mut Findings) {
             break;
         }
     }
+    shifts
+}
+
+/// The errors y − P(x) of active couplings, with their indices. Joints that close loops are
+/// excluded, because the poses of the links determine their coordinates.
+fn errors(model: &Model, shifts: &[[f64; 2]]) -> Vec<(usize, f64)> {
+    let at = |(joint, k): (usize, usize)| shifts[joint][k];
+    let couplings = model.couplings.iter().enumerate();
+    couplings
+        .filter(|(_, coupling)| coupling.is_active && model.joints[coupling.y.0].places)
+        .map(|(k, of)| (k, at(of.y) - value(&of.coefficients, of.x.map_or(0.0, at))))
+        .collect()
+}
+
+/// The coupling with the largest error (m or rad), if this error is not a rounding error.
+fn worst(model: &Model, shifts: &[[f64; 2]]) -> Option<(usize, f64)> {
+    let errors = errors(model, shifts).into_iter();
+    let largest = errors.max_by(|a, b| a.1.abs().total_cmp(&b.1.abs()))?;
+    let scale = shifts
+        .iter()
+        .flatten()
+        .fold(1.0_f64, |most, x| most.max(x.abs()));
+    // A comparison with NaN is false, and NaN is an error.
+    let is_fine = largest.1.abs() <= ASSEMBLED * scale;
+    (!is_fine).then_some(largest)
+}
+
+/// Searches for changes that satisfy all couplings, by Newton steps of least length. This is needed
+/// if a coordinate depends on several couplings, or if couplings form a cycle.
+fn solve(model: &Model, shifts: &mut [[f64; 2]]) {
+    let mut unknowns: Vec<(usize, usize)> = { model.couplings.iter() }
+        .filter(|coupling| coupling.is_active)
+        .flat_map(|coupling| coupling.x.into_iter().chain([coupling.y]))
+        .filter(|(joint, _)| model.joints[*joint].places)
+        .collect();
+    unknowns.sort_unstable();
+    unknowns.dedup();
+    if unknowns.len() > MOST_COORDINATES || model.couplings.len() > MOST_COORDINATES {
+        return;
+    }
+    for _ in 0..ITERATIONS {
+        let errors = errors(model, shifts);
+        let rhs = DVector::from_iterator(errors.len(), errors.iter().map(|(_, error)| *error));
+        let mut slopes = DMatrix::zeros(errors.len(), unknowns.len());
+        for (row, (k, _)) in errors.iter().enumerate() {
+            let coupling = &model.couplings[*k];
+            if let Ok(column) = unknowns.binary_search(&coupling.y) {
+                slopes[(row, column)] += 1.0;
+            }
+            let Some(x) = coupling.x else { continue };
+            if let Ok(column) = unknowns.binary_search(&x) {
+                slopes[(row, column)] -= slope(&coupling.coefficients, shifts[x.0][x.1]);
+            }
+        }
+        if slopes.iter().chain(&rhs).any(|x| !x.is_finite()) {
+            return;
+        }
+        let svd = slopes.svd(true, true);
+        // Dependent couplings have singular values of rounding errors.
+        let floor = OPEN * svd.singular_values.amax();
+        let Ok(step) = svd.solve(&rhs, floor) else {
+            return;
+        };
+        for ((joint, k), step) in unknowns.iter().zip(step.iter()) {
+            shifts[*joint][*k] -= step;
+        }
+        if step.amax() <= f64::EPSILON {
+            return;
+        }
+    }
+}
+
+/// Slope of a polynomial.
+fn slope(coefficients: &[f64], x: f64) -> f64 {
+    let horner = |(value, slope): (f64, f64), c: &f64| (value * x + c, slope * x + value);
+    coefficients.iter().rev().fold((0.0, 0.0), horner).1
+}
+
+/// Moves the links by these changes of the coordinates, and refers the couplings to them.
+fn describe(model: &mut Model, shifts: &[[f64; 2]], findings: &mut Findings) {
     for coupling in &mut model.couplings {
         let x = coupling.x.map_or(0.0, |(joint, k)| shifts[joint][k]);
         coupling.coefficients = about(&coupling.coefficients, x);
@@ -99,7 +196,7 @@ pub(crate) fn settle(model: &mut Model, findings: &mut Findings) {
     let moved: Vec<Isometry3<f64>> = model
         .joints
         .iter()
-        .zip(&shifts)
+        .zip(shifts)
         .map(|(joint, shift)| match joint.kind {
             JointKind::Spherical | JointKind::Free | JointKind::Fixed | JointKind::Planar => {
                 Isometry3::identity()
@@ -115,7 +212,7 @@ pub(crate) fn settle(model: &mut Model, findings: &mut Findings) {
         link.pose = g * link.pose;
     }
     let mut names = Vec::new();
-    for (joint, shift) in model.joints.iter_mut().zip(&shifts) {
+    for (joint, shift) in model.joints.iter_mut().zip(shifts) {
         joint.redescribe(*shift);
         if shift.iter().any(|x| *x != 0.0) {
             names.push(format!("`{}`", joint.name));

@@ -165,7 +165,10 @@ pub fn import(name: &str, text: &str, options: &Options) -> Result<ImportedScene
         return Err(refusal);
     }
     check(&model, files.root(), &mut findings);
-    couple::settle(&mut model, &mut findings);
+    settle(&mut model, files.root(), &mut findings);
+    if let Some(refusal) = refused(&mut findings) {
+        return Err(refusal);
+    }
     drives::add(&mut model, options.drives, format, &mut findings);
     let tolerance = tolerance::tolerances(&model, &mut findings);
     let mut gap = 0.0;
@@ -282,6 +285,21 @@ fn read<'a>(
         _ => {}
     }
     (model, format)
+}
+
+/// Satisfies the couplings at the described pose, or reports a coupling that contradicts others.
+fn settle(model: &mut Model, root: xml::Element, findings: &mut Findings) {
+    let Err((name, error)) = couple::settle(model, findings) else {
+        return;
+    };
+    let message = format!(
+        "no positions of the joints were found that satisfy all couplings: `{name}` is violated by {} m or rad",
+        model::words::rough(error.abs())
+    );
+    let help =
+        "remove a coupling of this joint or of a joint that it depends on, or set it inactive";
+    let (fault, source, span) = (Fault::Structure, root.source, root.span());
+    findings.fault_with_help(fault, source, span, message, "", help.to_owned());
 }
 
 /// Checks for bodies that no scene can contain.

@@ -254,3 +254,44 @@ fn compensated_weights_act_at_their_own_centre() {
     assert_eq!(done.scene.matches("type = \"point-force\"").count(), 2);
     assert!(!arm("", "").scene.contains("point-force"));
 }
+
+const SLIDES: &str = "<worldbody><body name='a'><joint name='a' type='slide' axis='1 0 0'/>\
+    <geom size='0.1'/></body><body name='b' pos='0 1 0'><joint name='b' type='slide' axis='1 0 0'/>\
+    <geom size='0.1'/></body></worldbody>";
+
+/// b = a − 0.3 and b = −0.1 have the solution a = 0.2.
+#[test]
+fn two_couplings_of_one_joint_are_solved() {
+    let couplings = "<equality><joint joint1='b' joint2='a' polycoef='-0.3 1 0 0 0'/>\
+        <joint joint1='b' polycoef='-0.1 0 0 0 0'/></equality>";
+    let done = mjcf(&format!("{SLIDES}{couplings}"));
+    close(&done, ["body", "a", "position"], &[0.2, 0.0, 0.0]);
+    close(&done, ["body", "b", "position"], &[-0.1, 1.0, 0.0]);
+    read(&done);
+    // b = 0.1 + a² and b = 0.5 + a have solutions with a² − a = 0.4.
+    let couplings = "<equality><joint joint1='b' joint2='a' polycoef='0.1 0 1 0 0'/>\
+        <joint joint1='b' joint2='a' polycoef='0.5 1 0 0 0'/></equality>";
+    let done = mjcf(&format!("{SLIDES}{couplings}"));
+    let at = |body| numbers(&value(&done.scene, "body", body, "position").expect("moved"))[0];
+    assert!((at("a") * at("a") - at("a") - 0.4).abs() < 1e-9);
+    assert!((at("b") - at("a") - 0.5).abs() < 1e-9);
+}
+
+#[test]
+fn couplings_that_contradict_each_other_are_refused() {
+    let text = format!(
+        "<mujoco>{SLIDES}<equality><joint name='one' joint1='b' polycoef='0.3 0 0 0 0'/>\
+         <joint name='two' joint1='b' polycoef='-0.1 0 0 0 0'/></equality></mujoco>"
+    );
+    let refusal = refused(&text);
+    let (code, _, message) = first(&refusal);
+    assert_eq!(code, "P0609");
+    // The least-squares solution is 0.1, with errors of 0.2.
+    assert!(
+        message.contains("`one`") || message.contains("`two`"),
+        "{message}"
+    );
+    assert!(message.contains("0.2 m or rad"), "{message}");
+    let help = refusal.diagnostics[0].help.as_deref().unwrap_or_default();
+    assert!(help.contains("remove a coupling"), "{help}");
+}
