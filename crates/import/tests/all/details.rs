@@ -295,3 +295,45 @@ fn couplings_that_contradict_each_other_are_refused() {
     let help = refusal.diagnostics[0].help.as_deref().unwrap_or_default();
     assert!(help.contains("remove a coupling"), "{help}");
 }
+
+/// ROS reads the first of two elements without a message.
+#[test]
+fn second_elements_of_a_urdf_are_refused() {
+    let inertia = "<inertia ixx='1' iyy='1' izz='1' ixy='0' ixz='0' iyz='0'/>";
+    let inertial = format!("<inertial><mass value='1'/>{inertia}</inertial>");
+    let axis = "<axis xyz='1 0 0'/>";
+    let model = |link: &str, joint: &str| {
+        format!(
+            "<robot name='r'><link name='base'/>\n<link name='a'>{link}</link>\n\
+             <joint name='j' type='continuous'><parent link='base'/><child link='a'/>{joint}\
+             </joint></robot>"
+        )
+    };
+    import_text(&model(&inertial, axis), &Options::default());
+    for (link, joint, kind, line) in [
+        (inertial.repeat(2), axis.to_owned(), "<inertial>", 2),
+        (
+            inertial.replace("<mass value='1'/>", "<mass value='1'/><mass value='2'/>"),
+            axis.into(),
+            "<mass>",
+            2,
+        ),
+        (inertial.clone(), axis.repeat(2), "<axis>", 3),
+        (
+            inertial.clone(),
+            format!("{axis}<origin/><origin xyz='1 0 0'/>"),
+            "<origin>",
+            3,
+        ),
+        (
+            inertial.clone(),
+            format!("{axis}<child link='base'/>"),
+            "<child>",
+            3,
+        ),
+    ] {
+        let (code, at, message) = first(&refused(&model(&link, &joint)));
+        assert_eq!((code.as_str(), at), ("P0609", line), "{message}");
+        assert!(message.contains(&format!("a second `{kind}`")), "{message}");
+    }
+}
