@@ -58,7 +58,12 @@ fn solid_of(word: &str, size: &[f64]) -> Result<Solid, (Fault, String)> {
             return Err((Fault::Value, format!("there is no geom of type `{shown}`")));
         }
     };
-    if size.iter().all(|x| *x > 0.0) {
+    let used = match word {
+        "sphere" => 1,
+        "capsule" | "cylinder" => 2,
+        _ => 3,
+    };
+    if size.iter().take(used).all(|x| *x > 0.0) {
         return Ok(solid);
     }
     let message = format!("the `size` of a {word} must be positive");

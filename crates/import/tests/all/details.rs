@@ -296,6 +296,33 @@ fn couplings_that_contradict_each_other_are_refused() {
     assert!(help.contains("remove a coupling"), "{help}");
 }
 
+/// Capsules use two sizes and spheres one; MuJoCo ignores the others.
+#[test]
+fn sizes_that_a_shape_does_not_use_have_any_value() {
+    for (shape, mass) in [
+        (
+            "type='sphere' size='0.5 -1 0'",
+            4.0 / 3.0 * std::f64::consts::PI * 125.0,
+        ),
+        (
+            "type='cylinder' size='0.5 2 0'",
+            std::f64::consts::PI * 1000.0,
+        ),
+    ] {
+        let done = mjcf(&format!(
+            "<worldbody><body name='b'><joint/><geom {shape}/></body></worldbody>"
+        ));
+        let found = value(&done.scene, "body", "b", "mass").expect("a mass");
+        let found: f64 = found.parse().expect("a number");
+        assert!((found - mass).abs() < 1e-9, "{found}");
+    }
+    for shape in ["type='capsule' size='0.5 0 1'", "type='box' size='1 1 0'"] {
+        let text =
+            format!("<mujoco><worldbody><body><joint/><geom {shape}/></body></worldbody></mujoco>");
+        assert_eq!(first(&refused(&text)).0, "P0610", "{shape}");
+    }
+}
+
 /// ROS reads the first of two elements without a message.
 #[test]
 fn second_elements_of_a_urdf_are_refused() {
