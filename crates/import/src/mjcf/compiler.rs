@@ -6,6 +6,9 @@ use crate::findings::{Fault, Findings, NumberKind, unit};
 use crate::pose::{along_z, quaternion, rotation};
 use crate::xml::{Element, Value};
 
+/// Attributes of which one states an orientation.
+pub(super) const WAYS: [&str; 5] = ["quat", "axisangle", "euler", "xyaxes", "zaxis"];
+
 /// Use of the inertia of geoms.
 #[derive(Clone, Copy, PartialEq)]
 pub(super) enum FromGeoms {
@@ -129,7 +132,6 @@ impl Compiler {
         get: impl Fn(&str) -> Option<Value<'a>>,
         findings: &mut Findings,
     ) -> Option<UnitQuaternion<f64>> {
-        const WAYS: [&str; 5] = ["quat", "axisangle", "euler", "xyaxes", "zaxis"];
         let given: Vec<Value> = WAYS.iter().filter_map(|way| get(way)).collect();
         if let [_, second, ..] = given.as_slice() {
             let message = format!("{}: a second orientation is given", second.subject);

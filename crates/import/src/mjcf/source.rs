@@ -2,7 +2,7 @@
 
 use nalgebra::Isometry3;
 
-use super::compiler::Compiler;
+use super::compiler::{Compiler, WAYS};
 use super::defaults::Defaults;
 use crate::files::Files;
 use crate::findings::{Fault, Findings};
@@ -35,6 +35,11 @@ pub(super) struct Attributes<'a, 'r> {
 impl<'a> Attributes<'a, '_> {
     pub(super) fn get(&self, key: &str) -> Option<Value<'a>> {
         let own = self.element.attribute(key);
+        let is_turned = || WAYS.iter().any(|way| self.element.attribute(way).is_some());
+        // An orientation of the element replaces an orientation of the class in any form.
+        if own.is_none() && WAYS.contains(&key) && is_turned() {
+            return None;
+        }
         own.or_else(|| self.defaults.get(self.class, self.element.name(), key))
     }
 }

@@ -323,6 +323,26 @@ fn sizes_that_a_shape_does_not_use_have_any_value() {
     }
 }
 
+/// A box rotated by 90° about z has its moments about x and y exchanged; with the rotation about x
+/// of the class instead, those about y and z.
+#[test]
+fn an_orientation_replaces_every_form_of_the_class() {
+    // Moments of the box of 12 kg: 12·(b² + c²)/3.
+    let [xx, yy, zz] = [4.0 * 13.0, 4.0 * 10.0, 4.0 * 5.0];
+    for (own, expected) in [
+        ("", [xx, zz, yy]),
+        ("axisangle='0 0 1 90'", [yy, xx, zz]),
+        ("quat='1 0 0 1'", [yy, xx, zz]),
+        ("euler='0 0 0'", [xx, yy, zz]),
+    ] {
+        let done = mjcf(&format!(
+            "<default><geom euler='90 0 0'/></default><worldbody><body name='b'><joint/>\
+             <geom type='box' size='1 2 3' mass='12' {own}/></body></worldbody>"
+        ));
+        close(&done, ["body", "b", "inertia"], &expected);
+    }
+}
+
 /// ROS reads the first of two elements without a message.
 #[test]
 fn second_elements_of_a_urdf_are_refused() {
