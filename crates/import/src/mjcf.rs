@@ -65,6 +65,7 @@ pub(crate) fn read<'a>(
         names: HashSet::new(),
         tendons: HashMap::new(),
         sites: HashMap::new(),
+        aligned: HashMap::new(),
         slots: Vec::new(),
     };
     let name = root

@@ -31,6 +31,8 @@ pub(super) struct Compiler {
     pub(super) balances: bool,
     pub(super) total_mass: Option<f64>,
     pub(super) auto_limits: bool,
+    /// Whether the axes of free bodies are moved to their inertial frames by default.
+    pub(super) aligns_free: bool,
 }
 
 impl Compiler {
@@ -45,6 +47,7 @@ impl Compiler {
             balances: false,
             total_mass: None,
             auto_limits: true,
+            aligns_free: false,
         };
         for section in sections
             .iter()
@@ -91,6 +94,7 @@ impl Compiler {
                 self.total_mass = total.filter(|total| *total > 0.0);
             }
             ("autolimits", _) => self.auto_limits = findings.boolean(value).unwrap_or(true),
+            ("alignfree", _) => self.aligns_free = findings.boolean(value).unwrap_or(false),
             ("angle", _) => unknown(value, "`degree` or `radian`", findings),
             ("inertiafromgeom", _) => unknown(value, "`auto`, `true` or `false`", findings),
             ("coordinate", _) => {

@@ -97,7 +97,7 @@ impl<'a> Reader<'a, '_> {
             places: false,
             frames,
             is_active,
-            ..Joint::new(name, kind, links, points, [Vector3::z(); 2])
+            ..Joint::new(name.clone(), kind, links, points, [Vector3::z(); 2])
         };
         if let (Some(a), Some(b)) = (element.attribute("site1"), element.attribute("site2")) {
             let [a, b] = [self.site_of(&a), self.site_of(&b)];
@@ -122,6 +122,7 @@ impl<'a> Reader<'a, '_> {
         if !self.between(element, [first, second]) {
             return None;
         }
+        self.refuse_aligned_ends(element, &name, [first, second], turns);
         let anchor = match element.attribute("anchor") {
             Some(value) => Some(self.source.findings.vector(&value, NumberKind::Length)?),
             None => None,
@@ -196,6 +197,24 @@ impl<'a> Reader<'a, '_> {
             self.source.findings.at(Fault::Unknown, value, message);
         }
         found
+    }
+
+    /// Rejects a constraint whose numbers refer to the inertial frame of an aligned body: `anchor`
+    /// is in the axes of the first body of a connect, or of the second body of a weld.
+    fn refuse_aligned_ends(
+        &mut self,
+        element: Element<'a>,
+        name: &str,
+        [first, second]: [Option<usize>; 2],
+        turns: bool,
+    ) {
+        let is_weld = element.name() == "weld";
+        let has_pose = is_weld && element.attribute("relpose").is_some();
+        let ends = [has_pose || !is_weld, has_pose || turns];
+        let links = [first, second].into_iter().zip(ends);
+        for link in links.filter_map(|(link, refers)| link.filter(|_| refers)) {
+            self.refuse_alignment(link, &format!("the constraint `{name}`"), element);
+        }
     }
 
     /// `<joint>`: y − y₀ = P(x − x₀).

@@ -37,11 +37,11 @@ const ENTRIES: &[Entry] = &[
     Entry::new(
         "compiler",
         "angle coordinate eulerseq inertiafromgeom inertiagrouprange boundmass boundinertia \
-         balanceinertia settotalmass autolimits",
+         balanceinertia settotalmass autolimits alignfree",
     )
     .idle(
         "strippath meshdir texturedir assetdir discardvisual usethread fitaabb fusestatic \
-         exactmeshinertia alignfree saveinertial convexhull conflict <lengthrange>",
+         exactmeshinertia saveinertial convexhull conflict <lengthrange>",
     ),
     Entry::new("option", "gravity wind density viscosity magnetic <flag>").left(&[(
         SOLVER,
@@ -101,7 +101,7 @@ const ENTRIES: &[Entry] = &[
         "group margin solreflimit solimplimit solreffriction solimpfriction user actuatorfrcrange \
          actuatorfrclimited actuatorgravcomp",
     ),
-    Entry::new("freejoint", "name class").idle("group align limited user"),
+    Entry::new("freejoint", "name class align").idle("group limited user"),
     Entry::new(
         "geom",
         concat!(

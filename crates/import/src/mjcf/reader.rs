@@ -24,6 +24,8 @@ pub(super) struct Reader<'a, 'f> {
     /// Tendons by name.
     pub(super) tendons: HashMap<String, Element<'a>>,
     pub(super) sites: HashMap<String, (Option<usize>, Isometry3<f64>)>,
+    /// Links of free bodies whose axes MuJoCo moves to the inertial frame, with their joints.
+    pub(super) aligned: HashMap<usize, Element<'a>>,
     /// Joint and coordinate of the joints of the file, in their order.
     pub(super) slots: Vec<(usize, usize)>,
 }

@@ -343,6 +343,60 @@ fn an_orientation_replaces_every_form_of_the_class() {
     }
 }
 
+/// MuJoCo moves the axes of these bodies to their inertial frames, and numbers for these axes are
+/// not converted.
+#[test]
+fn numbers_of_aligned_bodies_are_refused() {
+    let model = |compiler: &str, joint: &str, child: &str, more: &str| {
+        format!(
+            "<mujoco><compiler {compiler}/><worldbody>\n<body name='a' pos='1 2 3'>{joint}\
+             <geom size='0.1' pos='0.5 0 0'/>{child}</body></worldbody>\n{more}</mujoco>"
+        )
+    };
+    let key = "<keyframe><key name='k' qpos='0 0 0 1 0 0 0'/></keyframe>";
+    let on = "<freejoint align='true'/>";
+    for (compiler, joint) in [
+        ("", on),
+        ("alignfree='true'", "<freejoint/>"),
+        ("alignfree='true'", "<freejoint align='auto'/>"),
+        ("alignfree='true'", "<joint type='free'/>"),
+    ] {
+        let text = model(compiler, joint, "", key);
+        let done = pfaff_import::import("file.xml", &text, &start());
+        let refusal = done.expect_err("refused");
+        let (code, line, message) = first(&refusal);
+        assert_eq!((code.as_str(), line), ("P0608", 3), "{message}");
+        assert!(
+            message.contains("`k`") && message.contains("`a`"),
+            "{message}"
+        );
+        // The described pose does not depend on the axes.
+        let done = import_text(&text, &Options::default());
+        close(&done, ["body", "a", "position"], &[1.0, 2.0, 3.0]);
+    }
+    let child = "<body><joint/><geom size='0.1'/></body>";
+    let more = "<keyframe><key name='k' qpos='0 0 0 1 0 0 0 0'/></keyframe>";
+    for text in [
+        model("", "<freejoint/>", "", key),
+        model("alignfree='true'", "<freejoint align='false'/>", "", key),
+        // A body with child bodies is not aligned.
+        model("", on, child, more),
+    ] {
+        import_text(&text, &start());
+    }
+    for (constraint, refuses) in [
+        ("<connect body1='a' anchor='0 0 0'/>", true),
+        ("<connect body1='world' body2='a' anchor='0 0 0'/>", false),
+        ("<weld body1='a'/>", false),
+        ("<weld body1='a' relpose='0 0 0 1 0 0 0'/>", true),
+        ("<weld body1='world' body2='a' torquescale='0'/>", true),
+    ] {
+        let text = model("", on, "", &format!("<equality>{constraint}</equality>"));
+        let done = pfaff_import::import("file.xml", &text, &Options::default());
+        assert_eq!(done.is_err(), refuses, "{constraint}");
+    }
+}
+
 /// ROS reads the first of two elements without a message.
 #[test]
 fn second_elements_of_a_urdf_are_refused() {
