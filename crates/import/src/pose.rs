@@ -21,9 +21,14 @@ pub(crate) struct JointPlacement {
 impl JointPlacement {
     pub(crate) fn of(model: &Model, joint: &Joint) -> Self {
         let second = model.pose(joint.links[1]);
+        // The first axis of a universal joint is fixed in the first link only.
+        let axis = match joint.kind {
+            JointKind::Universal => model.pose(joint.links[0]).rotation * joint.axes[0],
+            _ => second.rotation * joint.axes[1],
+        };
         Self {
             point: second * nalgebra::Point3::from(joint.points[1]) - nalgebra::Point3::origin(),
-            axis: second.rotation * joint.axes[1],
+            axis,
             cross: second.rotation * joint.cross,
             second,
         }

@@ -397,6 +397,32 @@ fn numbers_of_aligned_bodies_are_refused() {
     }
 }
 
+/// The orientation is Rx(0.2)·Ry(0.7), although the coupling describes the second hinge at 0.5.
+#[test]
+fn keyframes_of_coupled_universal_joints() {
+    let model = |key: &str| {
+        at_keyframe(&format!(
+            "<compiler angle='radian'/><worldbody><body name='b'><joint name='x' axis='1 0 0'/>\
+             <joint name='y' axis='0 1 0'/><geom size='0.1'/></body></worldbody>\
+             <equality><joint joint1='y' joint2='x' polycoef='0.5 1 0 0 0'/></equality>\
+             <keyframe><key name='k' {key}/></keyframe>"
+        ))
+    };
+    let done = model("qpos='0.2 0.7' qvel='1 1'");
+    let ((sx, cx), (sy, cy)) = (0.1_f64.sin_cos(), 0.35_f64.sin_cos());
+    // (cx + sx·i)·(cy + sy·j)
+    close(
+        &done,
+        ["body", "b", "start"],
+        &[cx * cy, sx * cy, cx * sy, sx * sy],
+    );
+    // ω = e_x + Rx(0.2)·e_y
+    let spin = [1.0, 0.2_f64.cos(), 0.2_f64.sin()];
+    close(&done, ["body", "b", "angular_velocity"], &spin);
+    let (sin, cos) = 0.25_f64.sin_cos();
+    close(&done, ["body", "b", "orientation"], &[cos, 0.0, sin, 0.0]);
+}
+
 /// ROS reads the first of two elements without a message.
 #[test]
 fn second_elements_of_a_urdf_are_refused() {
