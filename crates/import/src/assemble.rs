@@ -25,6 +25,26 @@ pub(crate) struct Assembly {
     pub(crate) way: &'static str,
 }
 
+impl Assembly {
+    /// The pose of a keyframe that closes the loops. `moved` contains the changes of the joint
+    /// coordinates.
+    pub(crate) fn of_keyframe(
+        model: &Model,
+        moved: Vec<[f64; 2]>,
+        displacements: Vec<Isometry3<f64>>,
+    ) -> Self {
+        let (q, moved) = (moved, displacements);
+        let state = State { q, moved };
+        Self {
+            poses: state.poses(model),
+            moved: state.q,
+            displacements: state.moved,
+            gap: 0.0,
+            way: "",
+        }
+    }
+}
+
 /// Reason why no pose was found.
 pub(crate) enum AssemblyFailure {
     /// The loop with the largest gap at the best pose, and this gap.

@@ -158,27 +158,37 @@ pub(crate) struct Motion {
     pub(crate) spin: Vector3<f64>,
 }
 
+fn placements(model: &Model) -> Vec<JointPlacement> {
+    let joints = model.joints.iter();
+    joints
+        .map(|joint| JointPlacement::of(model, joint))
+        .collect()
+}
+
+/// The coordinates of a joint in [`JointPlacement::displacement`], from the coordinates of all
+/// joints in a keyframe.
+fn change(model: &Model, k: usize, q: &[Vec<f64>]) -> Vec<f64> {
+    let joint = &model.joints[k];
+    match joint.kind {
+        JointKind::Spherical | JointKind::Free => q[k].clone(),
+        _ => { q[k].iter().zip(&joint.zero) }
+            .map(|(q, zero)| q - zero)
+            .collect(),
+    }
+}
+
+/// Displacements of all joints at the coordinates of a keyframe.
+pub(crate) fn displacements(model: &Model, q: &[Vec<f64>]) -> Vec<Isometry3<f64>> {
+    let places = placements(model);
+    (0..model.joints.len())
+        .map(|k| places[k].displacement(model.joints[k].kind, &change(model, k, q)))
+        .collect()
+}
+
 /// The links at a state of the joints.
 pub(crate) fn at_state(model: &Model, q: &[Vec<f64>], v: Option<&[Vec<f64>]>) -> Vec<Motion> {
-    let places: Vec<JointPlacement> = model
-        .joints
-        .iter()
-        .map(|j| JointPlacement::of(model, j))
-        .collect();
-    let change = |k: usize| -> Vec<f64> {
-        let joint = &model.joints[k];
-        match joint.kind {
-            JointKind::Spherical | JointKind::Free => q[k].clone(),
-            _ => q[k]
-                .iter()
-                .zip(&joint.zero)
-                .map(|(q, zero)| q - zero)
-                .collect(),
-        }
-    };
-    let moved: Vec<Isometry3<f64>> = (0..model.joints.len())
-        .map(|k| places[k].displacement(model.joints[k].kind, &change(k)))
-        .collect();
+    let places = placements(model);
+    let moved = displacements(model, q);
     let links = displaced(model, &moved);
     let before = placing(model);
     let mut motions: Vec<Motion> = links
@@ -203,7 +213,7 @@ pub(crate) fn at_state(model: &Model, q: &[Vec<f64>], v: Option<&[Vec<f64>]>) ->
             let own = joint_twist(
                 &places[joint],
                 model.joints[joint].kind,
-                &change(joint),
+                &change(model, joint, q),
                 &v[joint],
                 &g,
             );

@@ -1,7 +1,7 @@
 //! The initial state of a scene: a keyframe, or a pose with closed loops near the requested values.
 
 use crate::angles;
-use crate::assemble::{self, AssemblyFailure};
+use crate::assemble::{self, Assembly, AssemblyFailure};
 use crate::axes::{self, Axes};
 use crate::couple;
 use crate::findings::{Fault, Findings};
@@ -55,12 +55,7 @@ pub(crate) fn start(
         .push(format!("The scene starts at the keyframe `{name}`."));
     let (moves, line) = (state.v.is_some(), state.line);
     let q = state.q.clone();
-    for (joint, q) in model.joints.iter_mut().zip(q) {
-        for k in 0..joint.kind.measures().len().min(q.len()) {
-            joint.moved[k] = q[k] - joint.zero[k];
-        }
-    }
-    refuse_turns(model, name, root, findings);
+    set_moved(model, &q);
     let poses: Vec<_> = motions.iter().map(|motion| motion.pose).collect();
     let moved: Vec<[f64; 2]> = model.joints.iter().map(|joint| joint.moved).collect();
     let open = assemble::open(model, &poses, &moved);
@@ -70,7 +65,52 @@ pub(crate) fn start(
             open.join(", ")
         ));
     }
+    if assemble::gap(model) > OPEN {
+        *gap = if open.is_empty() {
+            describe_keyframe(model, &q, name, root, findings);
+            0.0
+        } else {
+            close(model, options, angle, root, findings)
+        };
+        set_moved(model, &q);
+    }
+    refuse_turns(model, name, root, findings);
     Some((motions, moves))
+}
+
+/// Sets the changes of the joint coordinates from the described pose to a keyframe.
+fn set_moved(model: &mut Model, q: &[Vec<f64>]) {
+    for (joint, q) in model.joints.iter_mut().zip(q) {
+        for k in 0..joint.kind.measures().len().min(q.len()) {
+            joint.moved[k] = q[k] - joint.zero[k];
+        }
+    }
+}
+
+/// Describes the links at a keyframe that closes the loops. The loops of a scene must be closed
+/// where the links are described.
+fn describe_keyframe(
+    model: &mut Model,
+    q: &[Vec<f64>],
+    name: &str,
+    root: Element,
+    findings: &mut Findings,
+) {
+    let moved = model.joints.iter().map(|joint| joint.moved).collect();
+    let displacements = pose::displacements(model, q);
+    let found = Assembly::of_keyframe(model, moved, displacements);
+    findings.remarks.push(format!(
+        "The links are described at the keyframe `{name}`, because loops are open where the file describes them."
+    ));
+    leave_springs(assemble::describe(model, &found), root, findings);
+}
+
+/// Reports springs of spherical joints that were removed.
+fn leave_springs(joints: Vec<String>, root: Element, findings: &mut Findings) {
+    let kind = "springs of spherical joints, because the start differs from the described pose";
+    for joint in joints {
+        findings.leave_element(kind, root, &joint);
+    }
 }
 
 /// Rejects keyframes with full revolutions of coupled joints. The initial angles in a scene do not
@@ -214,10 +254,7 @@ fn close(
                 );
             }
             findings.remarks.push(remark);
-            for joint in assemble::describe(model, &found) {
-                let kind = "springs of spherical joints, because the start differs from the described pose";
-                findings.leave_element(kind, root, &joint);
-            }
+            leave_springs(assemble::describe(model, &found), root, findings);
             tell_moved(model, &asked, findings);
             return found.gap;
         }

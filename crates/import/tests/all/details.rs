@@ -397,6 +397,34 @@ fn numbers_of_aligned_bodies_are_refused() {
     }
 }
 
+/// A rack on a slide and a free bench that are bolted together: the file describes them apart, and
+/// the keyframe puts them together. The scene describes them at the keyframe.
+#[test]
+fn a_keyframe_that_closes_loops_is_described() {
+    let done = at_keyframe(
+        "<worldbody><body name='rack' pos='0 1 0'>\
+         <joint name='rack' type='slide' axis='1 0 0' stiffness='3'/><geom size='0.1'/></body>\
+         <body name='bench' pos='4 0 0'><freejoint/><geom size='0.1'/></body></worldbody>\
+         <equality><weld name='bolted' body1='rack' body2='bench' relpose='1 0.2 0 1 0 0 1'/>\
+         </equality><keyframe><key name='k' qpos='0.5 1.5 1.2 0 1 0 0 1'/></keyframe>",
+    );
+    close(&done, ["body", "rack", "position"], &[0.5, 1.0, 0.0]);
+    close(&done, ["body", "bench", "position"], &[1.5, 1.2, 0.0]);
+    let half = 0.5_f64.sqrt();
+    close(
+        &done,
+        ["body", "bench", "orientation"],
+        &[half, 0.0, 0.0, half],
+    );
+    is(
+        &done,
+        ["drive", "rack spring", "force"],
+        "\"-3.0*(measure - 0.0)\"",
+    );
+    remarks(&done, "The links are described at the keyframe `k`");
+    read(&done);
+}
+
 /// The orientation is Rx(0.2)·Ry(0.7), although the coupling describes the second hinge at 0.5.
 #[test]
 fn keyframes_of_coupled_universal_joints() {
