@@ -102,6 +102,7 @@ impl<'r> ModelReader<'r> {
     ) {
         let is_static = part.is_static || around_is_static;
         for item in part.items_of("link") {
+            refuse_world(item.element, item.name, findings);
             let name = self.names.place(&part.path, item.name);
             let pose = frames.pose(item.name).unwrap_or_default();
             let share = held_share(item.element, &name, findings);
@@ -199,6 +200,16 @@ fn inner<'p, 'a>(
 
 fn unsupported(element: Element, message: &str, findings: &mut Findings) {
     findings.of(Fault::Unsupported, element, message);
+}
+
+/// Rejects a link with the reserved name of the ground, which joints cannot distinguish from it.
+fn refuse_world(link: Element, name: &str, findings: &mut Findings) {
+    if name == "world" {
+        let message = "a link has the name `world`, which is reserved for the ground";
+        let help = "rename the link, also in the joints that refer to it".to_owned();
+        let (source, span) = (link.source, link.span());
+        findings.fault_with_help(Fault::Unsupported, source, span, message, "", help);
+    }
 }
 
 /// Returns the compensated share of the weight of a link, and reports its contacts.

@@ -492,3 +492,13 @@ fn second_elements_of_a_urdf_are_refused() {
         assert!(message.contains(&format!("a second `{kind}`")), "{message}");
     }
 }
+
+#[test]
+fn a_link_with_the_name_of_the_ground_is_refused() {
+    let text = "<sdf version='1.9'><model name='m'>\n<link name='world'/>\n\
+        <link name='a'/></model></sdf>";
+    let refusal = refused(text);
+    let (code, line, message) = first(&refusal);
+    assert_eq!((code.as_str(), line), ("P0608", 2), "{message}");
+    assert!(message.contains("`world`"), "{message}");
+}
