@@ -8,7 +8,7 @@ use nalgebra::{DMatrix, DVector, Isometry3, Vector3};
 
 use crate::couple;
 use crate::limits::{ASSEMBLED, CLOSED, GUESSES, ITERATIONS, MOST_COORDINATES, OPEN};
-use crate::mechanism::{JointKind, Model};
+use crate::mechanism::{JointKind, Model, redescribe};
 use crate::pose::{JointPlacement, displaced, rotation};
 use loops::{Gap, Tree};
 
@@ -134,7 +134,7 @@ pub(crate) fn describe(model: &mut Model, found: &Assembly) -> Vec<String> {
         if keeps && !joint.places && joint.frames.is_none() {
             joint.frames = Some([a.inverse() * b, Default::default()]);
         }
-        joint.redescribe(found.moved[k]);
+        redescribe(joint, found.moved[k]);
         let turned = found.displacements[k] != Isometry3::identity();
         if joint.kind == JointKind::Spherical && joint.loads[0].stiffness != 0.0 && turned {
             joint.loads[0].stiffness = 0.0;

@@ -7,7 +7,7 @@ use nalgebra::{DMatrix, DVector, Isometry3};
 
 use crate::findings::Findings;
 use crate::limits::{ASSEMBLED, ITERATIONS, MOST_COORDINATES, OPEN};
-use crate::mechanism::{JointKind, Model};
+use crate::mechanism::{JointKind, Model, redescribe};
 use crate::pose::{JointPlacement, displaced};
 
 /// Value of a polynomial.
@@ -213,7 +213,7 @@ fn describe(model: &mut Model, shifts: &[[f64; 2]], findings: &mut Findings) {
     }
     let mut names = Vec::new();
     for (joint, shift) in model.joints.iter_mut().zip(shifts) {
-        joint.redescribe(*shift);
+        redescribe(joint, *shift);
         if shift.iter().any(|x| *x != 0.0) {
             names.push(format!("`{}`", joint.name));
         }

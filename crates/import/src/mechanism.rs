@@ -178,13 +178,13 @@ impl Joint {
             is_active: true,
         }
     }
+}
 
-    /// Records that the described pose has changed by these changes of the coordinates.
-    pub(crate) fn redescribe(&mut self, change: [f64; 2]) {
-        for (k, change) in change.into_iter().enumerate() {
-            self.zero[k] += change;
-            self.described[k] += change;
-        }
+/// Records that the described pose of a joint has changed by these changes of its coordinates.
+pub(crate) fn redescribe(joint: &mut Joint, change: [f64; 2]) {
+    for (k, change) in change.into_iter().enumerate() {
+        joint.zero[k] += change;
+        joint.described[k] += change;
     }
 }
 

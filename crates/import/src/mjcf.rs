@@ -1,5 +1,6 @@
 //! MJCF, the format of MuJoCo: <https://mujoco.readthedocs.io/en/stable/XMLreference.html>.
 
+mod aligned;
 mod body;
 mod compiler;
 mod defaults;
@@ -20,6 +21,7 @@ use crate::findings::{Fault, Findings, NumberKind};
 use crate::limits::GRAVITY;
 use crate::mechanism::Model;
 use crate::xml::Element;
+use aligned::Alignments;
 use compiler::Compiler;
 use defaults::Defaults;
 pub(crate) use names::NAMES;
@@ -65,7 +67,7 @@ pub(crate) fn read<'a>(
         names: HashSet::new(),
         tendons: HashMap::new(),
         sites: HashMap::new(),
-        aligned: HashMap::new(),
+        aligned: Alignments::default(),
         slots: Vec::new(),
     };
     let name = root

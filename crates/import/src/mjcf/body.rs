@@ -94,7 +94,8 @@ impl<'a> Reader<'a, '_> {
         let held = element.attribute("gravcomp");
         let held = held.and_then(|value| self.source.findings.number(&value, NumberKind::Other));
         let link = self.chain(&name, own, freedoms, parent);
-        self.note_alignment(link, &items);
+        let kind = self.model.joints.last().map(|joint| joint.kind);
+        self.aligned.note(link, (&items, kind), &mut self.source);
         self.model.links[link].mass = mass;
         self.model.links[link].held = HeldWeight::of(held.unwrap_or(0.0), &mass);
         if self.bodies.insert(name.clone(), Some(link)).is_some() {
@@ -111,53 +112,6 @@ impl<'a> Reader<'a, '_> {
         for item in items.iter().filter(|item| item.element.name() == "body") {
             self.body_element(item, Some(link), depth + 1);
         }
-    }
-
-    /// Records a free body without child bodies whose axes MuJoCo moves to its inertial frame.
-    fn note_alignment(&mut self, link: usize, items: &[Item<'a>]) {
-        let is = |item: &&Item, name: &str| item.element.name() == name;
-        let mut joints = { items.iter() }.filter(|i| is(i, "joint") || is(i, "freejoint"));
-        let (Some(joint), None) = (joints.next(), joints.next()) else {
-            return;
-        };
-        let kind = self.model.joints.last().map(|joint| joint.kind);
-        if kind != Some(JointKind::Free) || items.iter().any(|item| is(&item, "body")) {
-            return;
-        }
-        let own = joint.element.attribute("align");
-        let own = own.filter(|value| value.text.trim() != "auto");
-        let is_aligned = match own {
-            Some(value) => self.source.findings.boolean(&value).unwrap_or(false),
-            None => self.source.compiler.aligns_free,
-        };
-        if is_aligned {
-            self.aligned.insert(link, joint.element);
-        }
-    }
-
-    /// Rejects numbers that refer to the inertial frame of an aligned free body. `what` contains
-    /// the numbers.
-    pub(super) fn refuse_alignment(&mut self, link: usize, what: &str, at: Element<'a>) {
-        let Some(joint) = self.aligned.get(&link) else {
-            return;
-        };
-        let message = format!(
-            "{what} refers to the inertial frame of body `{}`, because its free joint (line {}) is aligned",
-            self.model.links[link].name,
-            joint.line()
-        );
-        let help = "set align=\"false\" in its <freejoint>, and give the numbers for the frame of \
-                    the body";
-        let (source, span) = (at.source, at.span());
-        let findings = &mut self.source.findings;
-        findings.fault_with_help(
-            Fault::Unsupported,
-            source,
-            span,
-            message,
-            "",
-            help.to_owned(),
-        );
     }
 
     /// Adds the links of a body with the joints of the body. There is one link for each joint, or

@@ -3,7 +3,7 @@
 use nalgebra::{Isometry3, Point3, Vector3};
 
 use super::reader::Reader;
-use crate::findings::{Fault, NumberKind};
+use crate::findings::{Fault, Findings, NumberKind};
 use crate::mechanism::{Coupling, Joint, JointKind};
 use crate::pose::quaternion;
 use crate::xml::{Element, Value};
@@ -86,7 +86,7 @@ impl<'a> Reader<'a, '_> {
     /// `<connect>` and `<weld>`.
     fn closure(&mut self, element: Element<'a>, name: String) -> Option<Joint> {
         let is_weld = element.name() == "weld";
-        let turns = is_weld && self.turns_freely(element, &name)?;
+        let turns = is_weld && turns_freely(element, &name, self.source.findings)?;
         let kind = if is_weld && !turns {
             JointKind::Fixed
         } else {
@@ -122,7 +122,9 @@ impl<'a> Reader<'a, '_> {
         if !self.between(element, [first, second]) {
             return None;
         }
-        self.refuse_aligned_ends(element, &name, [first, second], turns);
+        let (aligned, links) = (&self.aligned, &self.model.links);
+        let findings = &mut *self.source.findings;
+        aligned.refuse_ends((element, &name, turns), [first, second], links, findings);
         let anchor = match element.attribute("anchor") {
             Some(value) => Some(self.source.findings.vector(&value, NumberKind::Length)?),
             None => None,
@@ -165,23 +167,6 @@ impl<'a> Reader<'a, '_> {
         }
     }
 
-    /// Whether a weld has the factor zero for its rotations, so that it only holds the anchor point.
-    /// Other factors change the softness of the weld, but not the exact constraint.
-    fn turns_freely(&mut self, element: Element<'a>, name: &str) -> Option<bool> {
-        let Some(value) = element.attribute("torquescale") else {
-            return Some(false);
-        };
-        let findings = &mut *self.source.findings;
-        let turns = findings.number(&value, NumberKind::Other)? == 0.0;
-        if turns {
-            findings.remarks.push(format!(
-                "The weld `{name}` (line {}) has `torquescale=\"0\"`: it holds only its anchor point.",
-                element.line()
-            ));
-        }
-        Some(turns)
-    }
-
     fn between(&mut self, element: Element<'a>, [first, second]: [Option<usize>; 2]) -> bool {
         if first == second {
             let message = "a constraint between a body and itself";
@@ -197,24 +182,6 @@ impl<'a> Reader<'a, '_> {
             self.source.findings.at(Fault::Unknown, value, message);
         }
         found
-    }
-
-    /// Rejects a constraint whose numbers refer to the inertial frame of an aligned body: `anchor`
-    /// is in the axes of the first body of a connect, or of the second body of a weld.
-    fn refuse_aligned_ends(
-        &mut self,
-        element: Element<'a>,
-        name: &str,
-        [first, second]: [Option<usize>; 2],
-        turns: bool,
-    ) {
-        let is_weld = element.name() == "weld";
-        let has_pose = is_weld && element.attribute("relpose").is_some();
-        let ends = [has_pose || !is_weld, has_pose || turns];
-        let links = [first, second].into_iter().zip(ends);
-        for link in links.filter_map(|(link, refers)| link.filter(|_| refers)) {
-            self.refuse_alignment(link, &format!("the constraint `{name}`"), element);
-        }
     }
 
     /// `<joint>`: y − y₀ = P(x − x₀).
@@ -357,4 +324,20 @@ impl<'a> Reader<'a, '_> {
         }
         Some(found)
     }
+}
+
+/// Whether a weld has the factor zero for its rotations, so that it only holds the anchor point.
+/// Other factors change the softness of the weld, but not the exact constraint.
+fn turns_freely(element: Element<'_>, name: &str, findings: &mut Findings) -> Option<bool> {
+    let Some(value) = element.attribute("torquescale") else {
+        return Some(false);
+    };
+    let turns = findings.number(&value, NumberKind::Other)? == 0.0;
+    if turns {
+        findings.remarks.push(format!(
+            "The weld `{name}` (line {}) has `torquescale=\"0\"`: it holds only its anchor point.",
+            element.line()
+        ));
+    }
+    Some(turns)
 }

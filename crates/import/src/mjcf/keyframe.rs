@@ -35,20 +35,11 @@ impl<'a> Reader<'a, '_> {
         }
     }
 
-    /// Rejects the keyframe at which the scene starts if its numbers refer to aligned bodies.
-    fn refuse_aligned_state(&mut self, element: Element<'a>, name: &str) {
-        let is_start = self.keyframe.as_deref() == Some(name);
-        let has = |key| element.attribute(key).is_some();
-        if !is_start || !(has("qpos") || has("qvel")) {
-            return;
-        }
-        if let Some(first) = self.aligned.keys().min().copied() {
-            self.refuse_alignment(first, &format!("the keyframe `{name}`"), element);
-        }
-    }
-
     fn state(&mut self, element: Element<'a>, name: String) -> Option<Keyframe> {
-        self.refuse_aligned_state(element, &name);
+        if self.keyframe.as_deref() == Some(name.as_str()) {
+            let (aligned, links) = (&self.aligned, &self.model.links);
+            aligned.refuse_state((element, &name), links, self.source.findings);
+        }
         let slots = self.slots.clone();
         let kinds: Vec<JointKind> = slots
             .iter()

@@ -12,8 +12,8 @@ impl<'a> Source<'a, '_> {
     /// Returns the mass of a body: the mass that the file states for the body, or the mass of the
     /// geoms. `pose` is the pose that the body states.
     ///
-    /// If a body has no mass except by the bounds of `<compiler>`, the inertial frame of MuJoCo is a
-    /// copy of the attributes of the body: it has the same pose relative to the body as the body
+    /// If a body has no mass except by the bounds of `<compiler>`, the inertial frame of MuJoCo is
+    /// a copy of the attributes of the body: it has the same pose relative to the body as the body
     /// has relative to the surrounding element.
     pub(super) fn mass(
         &mut self,

@@ -4,6 +4,7 @@ use std::collections::{HashMap, HashSet};
 
 use nalgebra::Isometry3;
 
+use super::aligned::Alignments;
 use super::source::Source;
 use crate::findings::Fault;
 use crate::mechanism::Model;
@@ -24,8 +25,8 @@ pub(super) struct Reader<'a, 'f> {
     /// Tendons by name.
     pub(super) tendons: HashMap<String, Element<'a>>,
     pub(super) sites: HashMap<String, (Option<usize>, Isometry3<f64>)>,
-    /// Links of free bodies whose axes MuJoCo moves to the inertial frame, with their joints.
-    pub(super) aligned: HashMap<usize, Element<'a>>,
+    /// Free bodies whose axes MuJoCo moves to the inertial frame.
+    pub(super) aligned: Alignments<'a>,
     /// Joint and coordinate of the joints of the file, in their order.
     pub(super) slots: Vec<(usize, usize)>,
 }
