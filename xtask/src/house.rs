@@ -33,11 +33,11 @@ use crate::tree::root;
 // feature may increase a size limit, in a separate commit.
 
 /// Largest number of lines of code of all groups except tests and developers' tools.
-const TOTAL_MOST: usize = 160_300;
+const TOTAL_MOST: usize = 160_600;
 /// Largest number of lines of code of the product.
-const PRODUCT_MOST: usize = 123_100;
+const PRODUCT_MOST: usize = 123_400;
 /// Largest number of tokens of the product; with this limit, longer lines do not help.
-const TOKENS_MOST: usize = 1_171_000;
+const TOKENS_MOST: usize = 1_174_000;
 /// Largest number of lines of code of `dynamics`.
 const DYNAMICS_MOST: usize = 11_720;
 /// Largest number of stateful types above the bounds.
