@@ -140,7 +140,12 @@ pub(crate) fn control(
         }
     }
     let space = description.space();
-    let place = |name: &str| names.iter().position(|known| known == name).unwrap_or_default();
+    let place = |name: &str| {
+        names
+            .iter()
+            .position(|known| known == name)
+            .unwrap_or_default()
+    };
     let of_drives: Vec<usize> = commanded.iter().map(|name| place(name)).collect();
     let of_bodies: Vec<usize> = loaded.iter().map(|(name, _)| place(name)).collect();
     let refs: Vec<BodyRef> = loaded.iter().map(|(_, body)| *body).collect();

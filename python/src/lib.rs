@@ -28,9 +28,9 @@ mod sweep;
 #[pyo3::pymodule]
 mod _pfaff {
     #[pymodule_export]
-    use super::fault::{input_code, panics};
-    #[pymodule_export]
     use super::control::Kinematics;
+    #[pymodule_export]
+    use super::fault::{input_code, panics};
     #[pymodule_export]
     use super::run::Run;
     #[pymodule_export]

@@ -126,8 +126,12 @@ impl Source {
         functions.put_into(&mut scene.description, &study, hearing)?;
         let own = AssembledScene::build(scene).and_then(|own| own.prepare(overrides));
         let own = own.map_err(|e| self.fault(e))?;
-        let started = start.map(|_| own.at(study.start_time(), &study.prepared.q, &study.prepared.v));
-        Ok(started.transpose().map_err(|e| self.fault(e))?.unwrap_or(own))
+        let started =
+            start.map(|_| own.at(study.start_time(), &study.prepared.q, &study.prepared.v));
+        Ok(started
+            .transpose()
+            .map_err(|e| self.fault(e))?
+            .unwrap_or(own))
     }
 
     /// Returns a study with this start, or with its own start.
@@ -179,12 +183,15 @@ impl Source {
             judged = self.judged((options.common.tolerance(), budget), overrides.drop.clone())?;
             judged.study()?
         } else {
-            own = self.with_functions(functions, start.as_ref(), (&options, &overrides), hearing)?;
+            own =
+                self.with_functions(functions, start.as_ref(), (&options, &overrides), hearing)?;
             &own
         };
         let of_run = study.memory(self.text.len()).map_err(|e| self.fault(e))?;
         budget.allow(of_run, "this run")?;
-        let start = study.analyse(study.start_time(), None).map_err(|e| self.fault(e))?;
+        let start = study
+            .analyse(study.start_time(), None)
+            .map_err(|e| self.fault(e))?;
         options.check_names(&start)?;
         let mut wanted = options.wanted();
         for choice in self.choices(&choices, study)? {
@@ -580,7 +587,9 @@ impl Scene {
             let drop = rows_from_zero(drop.as_deref())?;
             let judged = own.judged((common.tolerance(), common.budget()?), drop)?;
             let state = match judged.as_ref() {
-                JudgedStart::Stands(stands) if t == judged.start_time() => stands.kept.state.clone(),
+                JudgedStart::Stands(stands) if t == judged.start_time() => {
+                    stands.kept.state.clone()
+                }
                 judged => {
                     let found = judged.study()?.state_until(t, &|| hearing.has_ended());
                     found.map_err(|e| own.fault(e))?
@@ -665,7 +674,8 @@ impl Scene {
         let is_alone = functions.is_empty();
         let work = move |hearing: &Arc<Hearing>| {
             let overrides = options.run()?;
-            let mut study = own.with_functions(functions, start.as_ref(), (&options, &overrides), hearing)?;
+            let mut study =
+                own.with_functions(functions, start.as_ref(), (&options, &overrides), hearing)?;
             if let (Some(step), Some(motion)) = (options.output_step, &mut study.options) {
                 motion.output_step = step;
             }

@@ -229,9 +229,7 @@ impl Simulator {
     fn ask<T: Send + 'static>(
         &self,
         py: Python<'_>,
-        work: impl FnOnce(&Study, &mut Motion<'_>) -> Result<(T, Option<Study>), Fault>
-        + Send
-        + 'static,
+        work: impl FnOnce(&Study, &mut Motion<'_>) -> Result<(T, Option<Study>), Fault> + Send + 'static,
     ) -> PyResult<T> {
         let hearing = Arc::new(Hearing::new());
         let listening = Arc::clone(&hearing);
@@ -300,7 +298,9 @@ fn commanded(
     let added = scene.description.control(&[drive], &[], move |_, efforts| {
         let commands = own(&shared.commands);
         let found = commands.iter().find(|(known, _)| *known == name);
-        efforts.drives.fill(found.ok_or("the drive is not commanded")?.1);
+        efforts
+            .drives
+            .fill(found.ok_or("the drive is not commanded")?.1);
         Ok(())
     });
     added.map_err(|e| wrong(e.to_string()))?;
