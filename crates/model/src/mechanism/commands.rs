@@ -57,9 +57,10 @@ impl Mechanism {
     /// Returns storage for the values of the controllers.
     pub(super) fn commands(&self) -> Commands {
         let controllers = &self.elements.controllers;
-        let n = match controllers.is_empty() {
-            true => 0,
-            false => self.layout.n_q + self.layout.n_v,
+        let n = if controllers.is_empty() {
+            0
+        } else {
+            self.layout.n_q + self.layout.n_v
         };
         Commands {
             state: vec![0.0; n],
