@@ -1,4 +1,5 @@
-//! Words in the names of unknown elements and plugins that change the mechanism, with advice.
+//! Words in the names of unknown elements and plugins that change the mechanism, with advice, and
+//! elements that may occur only once.
 
 use crate::findings::{Fault, Findings};
 use crate::xml::Element;
@@ -62,4 +63,30 @@ pub(crate) fn refuse(element: Element, name: &str, advice: &str, findings: &mut 
     let (source, span) = (element.source, element.span());
     let advice = advice.to_owned();
     findings.fault_with_help(Fault::Unsupported, source, span, message, "", Some(advice));
+}
+
+/// Rejects a second element of a kind that an element may contain once. `reader` states which
+/// program uses only the first element.
+pub(crate) fn refuse_second(
+    parent: Element,
+    kinds: &[&str],
+    reader: &str,
+    findings: &mut Findings,
+) {
+    for kind in kinds {
+        let mut found = parent.children().filter(|child| child.name() == *kind);
+        let (Some(first), Some(second)) = (found.next(), found.next()) else {
+            continue;
+        };
+        let of = parent.attribute("name").map(|name| name.text.trim());
+        let of = of.map_or(String::new(), |name| format!(" `{name}`"));
+        let message = format!(
+            "a second `<{kind}>` in `<{}>`{of}: {reader} the first one (line {})",
+            parent.name(),
+            first.line()
+        );
+        let help = format!("remove one of the two `<{kind}>`");
+        let (source, span) = (second.source, second.span());
+        findings.fault_with_help(Fault::Structure, source, span, message, "", help);
+    }
 }

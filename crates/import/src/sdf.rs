@@ -11,6 +11,7 @@ use std::collections::{HashMap, HashSet};
 use model::words::quantity;
 use nalgebra::{Isometry3, Vector3};
 
+use crate::changing::refuse_second;
 use crate::extensions;
 use crate::files::Files;
 use crate::findings::{Fault, Findings, NumberKind};
@@ -103,6 +104,12 @@ impl<'r> ModelReader<'r> {
         let is_static = part.is_static || around_is_static;
         for item in part.items_of("link") {
             refuse_world(item.element, item.name, findings);
+            refuse_second(
+                item.element,
+                &["inertial", "pose", "gravity"],
+                READER,
+                findings,
+            );
             let name = self.names.place(&part.path, item.name);
             let pose = frames.pose(item.name).unwrap_or_default();
             let share = held_share(item.element, &name, findings);
@@ -224,6 +231,12 @@ fn held_share(link: Element, name: &str, findings: &mut Findings) -> f64 {
     if falls { 0.0 } else { 1.0 }
 }
 
+/// Elements that change the mechanism, and that a joint contains once.
+const IN_JOINT: [&str; 5] = ["parent", "child", "pose", "axis", "axis2"];
+
+/// The program that reads only the first of two elements.
+const READER: &str = "Gazebo uses";
+
 /// An axis with its loads.
 struct Axis {
     /// Direction in the axes of the second link.
@@ -252,6 +265,7 @@ fn read_joint(
         findings.missing(element, "a `type`");
         return None;
     };
+    refuse_second(element, &IN_JOINT, READER, findings);
     let links = links_of(element, name, scope, findings)?;
     // A pose relative to the ground is read from its own numbers.
     let is_of_ground = links[1].is_none() && element.child("pose").and_then(base_of).is_none();

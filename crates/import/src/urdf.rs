@@ -6,6 +6,7 @@ use std::collections::HashMap;
 
 use nalgebra::{Isometry3, Vector3};
 
+use crate::changing::refuse_second;
 use crate::extensions;
 use crate::findings::{Fault, Findings, NumberKind};
 use crate::loops;
@@ -20,6 +21,9 @@ pub(crate) use names::NAMES;
 
 /// Elements of a joint that change the mechanism, and that a joint contains once.
 const IN_JOINT: [&str; 6] = ["origin", "parent", "child", "axis", "mimic", "dynamics"];
+
+/// The program that reads only the first of two elements.
+const READER: &str = "ROS uses";
 
 /// A joint of the file.
 struct Edge<'a> {
@@ -85,27 +89,6 @@ pub(crate) fn read(root: Element, base: Base, findings: &mut Findings) -> Model 
     model
 }
 
-/// Rejects a second element of a kind that ROS reads once. ROS uses the first element and ignores
-/// the others without a message.
-fn refuse_second(parent: Element, kinds: &[&str], findings: &mut Findings) {
-    for kind in kinds {
-        let mut found = parent.children().filter(|child| child.name() == *kind);
-        let (Some(first), Some(second)) = (found.next(), found.next()) else {
-            continue;
-        };
-        let of = parent.attribute("name").map(|name| name.text.trim());
-        let of = of.map_or(String::new(), |name| format!(" `{name}`"));
-        let message = format!(
-            "a second `<{kind}>` in `<{}>`{of}: ROS uses the first one (line {})",
-            parent.name(),
-            first.line()
-        );
-        let help = format!("remove one of the two `<{kind}>`");
-        let (source, span) = (second.source, second.span());
-        findings.fault_with_help(Fault::Structure, source, span, message, "", help);
-    }
-}
-
 /// `<origin xyz rpy>` of an element.
 fn origin(
     element: Element,
@@ -167,7 +150,7 @@ fn links(root: Element, model: &mut Model, findings: &mut Findings) -> HashMap<S
         for child in element.children().filter(|c| c.name() == "collision") {
             findings.leave_element("contacts of links", child, &name);
         }
-        refuse_second(element, &["inertial"], findings);
+        refuse_second(element, &["inertial"], READER, findings);
         let mass = match element.child("inertial") {
             Some(inertial) => mass_of(inertial, findings).unwrap_or_default(),
             None => Mass::default(),
@@ -183,7 +166,7 @@ fn links(root: Element, model: &mut Model, findings: &mut Findings) -> HashMap<S
 }
 
 fn mass_of(inertial: Element, findings: &mut Findings) -> Option<Mass> {
-    refuse_second(inertial, &["origin", "mass", "inertia"], findings);
+    refuse_second(inertial, &["origin", "mass", "inertia"], READER, findings);
     let pose = origin(inertial, [NumberKind::Other; 2], findings)?;
     let Some(mass) = inertial.child("mass") else {
         findings.missing(inertial, "a `<mass>`");
@@ -227,7 +210,7 @@ fn edges<'a>(
             let message = format!("the joint `{name}` is defined twice");
             findings.of(Fault::Twice, element, message);
         }
-        refuse_second(element, &IN_JOINT, findings);
+        refuse_second(element, &IN_JOINT, READER, findings);
         let mut end = |key: &str| {
             let Some(child) = element.child(key) else {
                 findings.missing(element, &format!("a `<{key}>`"));

@@ -21,7 +21,14 @@ impl<'a> Source<'a, '_> {
         pose: &Isometry3<f64>,
         items: &[Item<'a>],
     ) -> Mass {
-        let own = items.iter().find(|item| item.element.name() == "inertial");
+        let mut stated = items.iter().filter(|i| i.element.name() == "inertial");
+        let own = stated.next();
+        if let (Some(first), Some(second)) = (own, stated.next()) {
+            let line = first.element.line();
+            let message =
+                format!("a body has only one `<inertial>`, and the first is in line {line}");
+            self.findings.of(Fault::Structure, second.element, message);
+        }
         let from_geoms = self.compiler.from_geoms;
         let uses_geoms = match own {
             Some(_) => from_geoms == FromGeoms::Always,

@@ -2,7 +2,9 @@
 
 use nalgebra::{Isometry3, Matrix3, Vector3};
 
+use super::READER;
 use super::frames::{Frames, pose_of};
+use crate::changing::refuse_second;
 use crate::findings::{Fault, Findings, NumberKind};
 use crate::limits::DENSITY;
 use crate::mass::{Mass, Solid};
@@ -32,6 +34,7 @@ pub(super) fn mass_of(link: &ModelLink, findings: &mut Findings) -> Option<Mass>
             inertia: Matrix3::identity(),
         });
     };
+    refuse_second(inertial, &["pose", "mass", "inertia"], READER, findings);
     let is_auto = match inertial.attribute("auto") {
         Some(value) => findings.boolean(&value)?,
         None => false,

@@ -3,7 +3,7 @@
 
 use pfaff_import::{ImportedScene, Options};
 
-use super::{first, import_text, numbers, read, refused, value};
+use super::{body, first, import_text, numbers, read, refused, value};
 
 const PRECISION: f64 = 1e-12;
 
@@ -119,7 +119,7 @@ fn a_weld_without_torques_is_a_ball_joint() {
 /// `inertiafromgeom="true"` replaces the inertia of the file only if geoms have mass.
 #[test]
 fn an_inertial_remains_without_geoms() {
-    let body = |compiler: &str, geom: &str| {
+    let imported = |compiler: &str, geom: &str| {
         mjcf(&format!(
             "<compiler {compiler}/><worldbody><body name='b'><joint axis='1 0 0'/>\
              <inertial pos='0 0.5 0' mass='2' diaginertia='0.1 0.1 0.1'/>{geom}</body></worldbody>"
@@ -142,10 +142,14 @@ fn an_inertial_remains_without_geoms() {
             3.0,
         ),
     ] {
-        let done = body(&compiler, geom);
+        let done = imported(&compiler, geom);
         close(&done, ["body", "b", "mass"], &[mass]);
     }
-    close(&body(all, ""), ["body", "b", "centre"], &[0.0, 0.5, 0.0]);
+    close(
+        &imported(all, ""),
+        ["body", "b", "centre"],
+        &[0.0, 0.5, 0.0],
+    );
 }
 
 /// MuJoCo 4.0 has `body_ipos = [0, 0.3, 1]` for this body, also within a frame.
@@ -501,4 +505,41 @@ fn a_link_with_the_name_of_the_ground_is_refused() {
     let (code, line, message) = first(&refusal);
     assert_eq!((code.as_str(), line), ("P0608", 2), "{message}");
     assert!(message.contains("`world`"), "{message}");
+}
+
+/// Gazebo uses the first of two elements, and MuJoCo rejects the second.
+#[test]
+fn second_elements_of_other_formats_are_refused() {
+    let sdf = |link: &str, joint: &str| {
+        format!(
+            "<sdf version='1.9'><model name='m'>\n<link name='a'>{link}</link>\n\
+             <joint name='j' type='revolute'><parent>world</parent><child>a</child>\
+             <axis><xyz>0 0 1</xyz></axis>{joint}</joint></model></sdf>"
+        )
+    };
+    import_text(&sdf("<inertial/>", ""), &Options::default());
+    let inertial = "<inertial pos='0 0 0' mass='1' diaginertia='1 1 1'/>";
+    for (text, kind, line) in [
+        (sdf("<inertial/><inertial/>", ""), "<inertial>", 2),
+        (
+            sdf("<inertial><mass>1</mass><mass>2</mass></inertial>", ""),
+            "<mass>",
+            2,
+        ),
+        (
+            sdf("<pose>0 0 0 0 0 0</pose><pose>1 0 0 0 0 0</pose>", ""),
+            "<pose>",
+            2,
+        ),
+        (sdf("", "<axis><xyz>1 0 0</xyz></axis>"), "<axis>", 3),
+        (
+            body(&format!("<joint/>{inertial}{inertial}")),
+            "<inertial>",
+            4,
+        ),
+    ] {
+        let (code, at, message) = first(&refused(&text));
+        assert_eq!((code.as_str(), at), ("P0609", line), "{message}");
+        assert!(message.contains(&format!("`{kind}`")), "{message}");
+    }
 }
