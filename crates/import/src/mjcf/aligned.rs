@@ -1,5 +1,5 @@
-//! Free bodies whose axes MuJoCo moves to their inertial frame. Coordinates in the file then refer to
-//! this frame, which the reader does not convert.
+//! Free bodies whose axes MuJoCo moves to their inertial frame. Coordinates in the file then refer
+//! to this frame, which the reader does not convert.
 
 use std::collections::HashMap;
 
@@ -75,8 +75,8 @@ impl<'a> Alignments<'a> {
         }
     }
 
-    /// Rejects numbers that refer to the inertial frame of an aligned free body. `what` contains the
-    /// numbers.
+    /// Rejects numbers that refer to the inertial frame of an aligned free body. `what` contains
+    /// the numbers.
     fn refuse(
         &self,
         (link, links): (usize, &[Link]),
