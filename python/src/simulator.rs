@@ -195,9 +195,9 @@ impl Simulator {
         own(&self.shared.commands).clone()
     }
 
-    /// The verdicts at the current state as JSON, and all values of the reactions of each joint for
-    /// the independent rows of the run.
-    fn reactions(&self, py: Python<'_>) -> PyResult<(String, Vec<Vec<f64>>)> {
+    /// The verdicts at the current state as JSON, and all components of the reactions of each joint
+    /// for the independent rows of the run, with their names.
+    fn reactions(&self, py: Python<'_>) -> PyResult<(String, Vec<Components>)> {
         let source = Arc::clone(&self.source);
         self.ask(py, move |study, motion| {
             let (t, q, v) = current(motion);
@@ -208,9 +208,11 @@ impl Simulator {
             let mut numbers = Vec::new();
             let sampled = motion.sample(|sample| {
                 if let Ok(reactions) = sample.reactions() {
+                    let names = || space.components().iter().copied();
                     let all = reactions.as_chosen().iter();
-                    let all = all.map(|r| r.components(space).chain(r.component).collect());
-                    numbers = all.collect();
+                    numbers = all
+                        .map(|r| names().zip(r.components(space)).collect())
+                        .collect();
                 }
             });
             sampled.map_err(|e| source.fault(MotionError::from(e).into()))?;
@@ -311,6 +313,9 @@ fn current(motion: &Motion<'_>) -> (f64, Vec<f64>, Vec<f64>) {
     let (t, q, v) = motion.state();
     (t, q.to_vec(), v.to_vec())
 }
+
+/// The components of a reaction with their names.
+type Components = Vec<(&'static str, f64)>;
 
 /// Time, coordinates and velocities.
 type StateArrays = (f64, Py<PyArray1<f64>>, Py<PyArray1<f64>>);

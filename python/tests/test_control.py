@@ -237,6 +237,14 @@ def test_reactions_have_their_verdicts() -> None:
     )
     upper = pfaff.Simulator(door).reactions()["upper"]
     assert upper["Fy"].verdict == "not_unique" and math.isnan(upper["Fy"].value)
+    # A joint with only a torque: 3 N·m on the body, and the same on the ground.
+    level = (
+        pfaff.Scene("level")
+        .body("crate", mass=1.0, inertia=1.0)
+        .joint("level", "angle", ["ground", "crate"])
+        .force("turn", "torque", "crate", torque=3.0)
+    )
+    assert pfaff.Simulator(level).reactions() == {"level": {"T": (3.0, "unique")}}
     hanging = pfaff.Simulator(cart_pole()).reactions()["guide"]
     assert hanging["Fy"].verdict == "unique"
     # On the ground: the weight of cart and bob.

@@ -182,10 +182,10 @@ class Simulator:
         """
         The number of evaluations of accelerations by all steps since the last reset.
         """
-    def reactions(self, /) -> tuple[str, list[list[float]]]:
+    def reactions(self, /) -> tuple[str, list[list[tuple[str, float]]]]:
         """
-        The verdicts at the current state as JSON, and all values of the reactions of each joint for
-        the independent rows of the run.
+        The verdicts at the current state as JSON, and all components of the reactions of each joint
+        for the independent rows of the run, with their names.
         """
     def reset(self, /, t: SupportsFloat | SupportsIndex, q: SupportsGetItem[int, SupportsFloat | SupportsIndex], v: SupportsGetItem[int, SupportsFloat | SupportsIndex]) -> None:
         """

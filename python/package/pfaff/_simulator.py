@@ -116,10 +116,11 @@ class Simulator:
         found = {}
         for reaction, values in zip(json.loads(text)["reactions"], numbers, strict=True):
             components = {}
-            for component, value in zip(reaction["components"], values, strict=False):
+            of = dict(values)
+            for component in reaction["components"]:
                 verdict = component.get("generic_verdict") or component["verdict"]
                 both = {verdict, component["verdict"]}
-                number = float(value) if both == {"unique"} else float("nan")
+                number = of[component["name"]] if both == {"unique"} else float("nan")
                 components[component["name"]] = ReactionNumber(number, verdict)
             found[reaction["name"]] = components
         return found
