@@ -429,3 +429,107 @@ force = [
     let found = rows.last().expect("rows").v[2];
     assert!((found / expected - 1.0).abs() < 1e-6, "{found}, {expected}");
 }
+
+/// A wheel of 1 kg·m² at 1 rad, with this law along its angle.
+fn wheel(torque: &str) -> String {
+    format!(
+        r#"
+scene = {{ name = "wheel", space = "plane" }}
+body = [{{ name = "wheel", mass = 1, inertia = 1, angle = 1 }}]
+joint = [{{ name = "pin", type = "revolute", bodies = ["ground", "wheel"], at = [0, 0] }}]
+drive = [{{ name = "motor", joint = "pin", type = "angle", torque = "{torque}" }}]
+"#
+    )
+}
+
+/// Returns Σ cₖ·exp(−aₖ·t) with the value 1, the rate 0 and this acceleration at t = 0.
+fn decay([a, b, c]: [f64; 3], acceleration: f64, t: f64) -> f64 {
+    // Lagrange: each coefficient follows from the product of the two other factors.
+    let part = |a: f64, b: f64, c: f64| (acceleration + b * c) / ((a - b) * (a - c));
+    part(a, b, c) * (-a * t).exp() + part(b, c, a) * (-b * t).exp() + part(c, a, b) * (-c * t).exp()
+}
+
+/// With the poles −1, −2 and −3, the characteristic polynomial s³ + 6·s² + 11·s + 6 is that of
+/// `θ̈ = −11·θ − 6·θ̇ − 6·∫θ`. At the start the integral is zero, so θ̈ = −11.
+#[test]
+fn an_integral_in_a_law_is_a_state_of_the_motion() {
+    let scene = wheel("-11*measure - 6*rate - 6*integral(measure)");
+    let (rows, summary) = run(&study(&scene), &options(3.0));
+    for row in &rows {
+        close(row.q[2], decay([1.0, 2.0, 3.0], -11.0, row.t), 1.0, "angle");
+        // The state: −6·∫θ = θ̈ + 11·θ + 6·θ̇, and the integral of each exponential is known.
+        let integral = |a: f64, b: f64, c: f64| {
+            (b * c - 11.0) / ((a - b) * (a - c)) * (1.0 - (-a * row.t).exp()) / a
+        };
+        let expected = integral(1.0, 2.0, 3.0) + integral(2.0, 3.0, 1.0) + integral(3.0, 1.0, 2.0);
+        close(row.q[3], expected, 1.0, "integral");
+    }
+    assert!(summary.energy_balance < 1e-8, "{}", summary.energy_balance);
+}
+
+/// `θ̈ = −k·y − d·θ̇` with `ẏ = (θ − y)/T` has the polynomial s³ + (1/T + d)·s² + (d/T)·s + k/T. At
+/// the start y = θ = 1, so θ̈ = −k.
+#[test]
+fn a_lag_in_a_law_starts_at_its_input() {
+    let poles = [0.5, 1.0, 8.0];
+    let [one, two, three]: [f64; 3] = [9.5, 12.5, 4.0];
+    let rate = 0.5 * (one - (one * one - 4.0 * two).sqrt());
+    let (k, d, time) = (three / rate, one - rate, 1.0 / rate);
+    let scene = wheel(&format!("-{k:?}*lag(measure, {time:?}) - {d:?}*rate"));
+    let (rows, _) = run(&study(&scene), &options(3.0));
+    for row in &rows {
+        close(row.q[2], decay(poles, -k, row.t), 1.0, "angle");
+    }
+    assert_eq!(rows[0].q[3], 1.0);
+}
+
+/// A lag of a lag starts at its input, too, and a run that starts at a row continues the states.
+#[test]
+fn states_of_laws_continue_at_a_restart() {
+    let scene =
+        wheel("-9*lag(lag(measure, 0.1), 0.2) - 2*rate - 3*integral(measure) - 1*lag(rate, 0.3)");
+    let study = study(&scene);
+    let (rows, _) = run(&study, &options(2.0));
+    assert_eq!(rows[0].q[3..5], [1.0, 1.0]);
+    let (middle, last) = (&rows[rows.len() / 2], &rows[rows.len() - 1]);
+    let later = study
+        .at(middle.t, &middle.q, &middle.v)
+        .unwrap_or_else(|e| panic!("{e}"));
+    let (again, _) = run(&later, &options(2.0));
+    for (k, (a, b)) in again[again.len() - 1].q.iter().zip(&last.q).enumerate() {
+        close(*a, *b, 1.0, &format!("coordinate {k}"));
+    }
+    let refused = study
+        .text_at(middle.t, &middle.q, &middle.v)
+        .expect_err("no key");
+    assert!(
+        refused.to_string().contains("state of the law of `motor`"),
+        "{refused}"
+    );
+}
+
+/// Two wheels move independently, so a run may integrate them separately.
+#[test]
+fn parts_of_a_mechanism_have_their_own_states() {
+    let scene = r#"
+scene = { name = "wheels", space = "plane" }
+body = [
+    { name = "a", mass = 1, inertia = 1, angle = 1 },
+    { name = "b", mass = 1, inertia = 1, angle = 1 },
+]
+joint = [
+    { name = "first", type = "revolute", bodies = ["ground", "a"], at = [0, 0] },
+    { name = "second", type = "revolute", bodies = ["ground", "b"], at = [1, 0] },
+]
+drive = [
+    { name = "one", joint = "first", type = "angle", torque = "-11*measure - 6*rate - 6*integral(measure)" },
+    { name = "two", joint = "second", type = "angle", torque = "-4*lag(measure, 0.5) - 1*rate" },
+]
+"#;
+    let study = study(scene);
+    let part = study.prepared.mechanism.part(&[1]);
+    assert_eq!(part.places.coordinates, [3, 4, 5, 7]);
+    let (rows, _) = run(&study, &options(2.0));
+    let last = &rows[rows.len() - 1];
+    close(last.q[2], decay([1.0, 2.0, 3.0], -11.0, 2.0), 1.0, "angle");
+}

@@ -45,6 +45,7 @@ mod parts;
 mod plain;
 mod planted_matrices;
 mod planted_mechanisms;
+mod point_masses;
 mod results_as_data;
 mod robot_trolley;
 mod robots;

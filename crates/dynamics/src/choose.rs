@@ -43,8 +43,9 @@ pub(crate) fn method(
     if prepared.mechanism.applied_forces().is_empty() {
         return explicit("no applied forces that could be stiff");
     }
-    if let Some(called) = prepared.mechanism.applied_forces().called().next() {
-        let why = format!("{called} for implicit methods; stiffness was not estimated");
+    let mut forces = prepared.mechanism.applied_forces().without_derivatives();
+    if let Some(force) = forces.next() {
+        let why = format!("{force} for implicit methods; stiffness was not estimated");
         return explicit(&why);
     }
     if prepared.is_schur() {

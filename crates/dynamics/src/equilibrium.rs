@@ -153,7 +153,12 @@ pub fn equilibrium(
     prepared: &PreparedMechanism,
     options: &EquilibriumOptions,
 ) -> Result<Equilibrium, EquilibriumError> {
-    if let Some(force) = prepared.mechanism.applied_forces().called().next() {
+    if let Some(force) = prepared
+        .mechanism
+        .applied_forces()
+        .without_derivatives()
+        .next()
+    {
         return Err(EquilibriumError::NoDerivatives(force));
     }
     let mut statics = Statics::new(prepared);

@@ -6,7 +6,7 @@ use integrators::IntegrationError;
 use linalg::{SaddleError, SingularPivot};
 use model::codes::Code;
 use model::words::{clause, listed, rough, rounded, short};
-use model::{CalledForce, RowLabel, StartError, UndefinedForce};
+use model::{ForceWithoutDerivatives, RowLabel, StartError, UndefinedForce};
 use rank::Doubt;
 use solvability::{AnalysisError, Contradiction, DriveLimit, NoFiniteReaction, StateError};
 
@@ -86,7 +86,7 @@ pub enum MotionFault {
         /// Text with the calculation that needs derivatives, and the verb of the calculation.
         needs: &'static str,
         /// The force that calls a function.
-        source: CalledForce,
+        source: ForceWithoutDerivatives,
         /// Alternatives for the user.
         instead: &'static str,
     },

@@ -70,11 +70,16 @@ pub fn linearise(
     (t, q, v): (f64, &[f64], &[f64]),
     options: &LineariseOptions,
 ) -> Result<Linearisation, LineariseError> {
-    if let Some(source) = prepared.mechanism.applied_forces().called().next() {
+    if let Some(source) = prepared
+        .mechanism
+        .applied_forces()
+        .without_derivatives()
+        .next()
+    {
         return Err(LineariseError::Fault(MotionFault::NoDerivatives {
             needs: "a linearisation needs",
             source,
-            instead: "give the drive a law of `measure`, `rate` and `t`",
+            instead: "give the drive a law of `measure`, `rate` and `t` alone",
         }));
     }
     let size = prepared.assembly.size;

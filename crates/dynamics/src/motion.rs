@@ -311,7 +311,8 @@ impl<'m> KeptRowMotion<'m> {
         if !is_evaluated {
             self.interpret(state, a)?;
         }
-        rates(self.mechanism(), (q, v, a), (qd, power));
+        rates(self.mechanism(), (q, v, a), (&mut *qd, power));
+        self.mechanism().state_rates(&self.equations.at.s, qd);
         Ok(())
     }
 
@@ -332,7 +333,8 @@ impl<'m> KeptRowMotion<'m> {
         let (q, v) = self.parts(y);
         let (qd, a, power) = self.parts_mut(dy);
         self.solve_factored(v, a)?;
-        rates(self.mechanism(), (q, v, a), (qd, power));
+        rates(self.mechanism(), (q, v, a), (&mut *qd, power));
+        self.mechanism().state_rates(&self.equations.at.s, qd);
         Ok(())
     }
 

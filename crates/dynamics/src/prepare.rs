@@ -242,8 +242,9 @@ impl PreparedMechanism {
     /// Returns whether a run evaluates the state as a function of time. The state is evaluated as a
     /// function of time if no coordinate or velocity is free and states are projected.
     pub(crate) fn is_function_of_time(&self, options: &MotionOptions) -> bool {
-        let n_v = self.mechanism.layout().n_v;
-        let is_held = self.decision.rank == n_v && self.position_decision.rank == n_v;
+        let ranks = [self.decision.rank, self.position_decision.rank];
+        let is_held = ranks == [self.mechanism.layout().n_v; 2];
+        let is_held = is_held && self.mechanism.layout().states == 0;
         is_held && options.stabilisation == Stabilisation::Projection
     }
 }
@@ -327,7 +328,7 @@ fn on_rows(
             (decision.map_err(refused)?, found.holonomic.clone())
         }
     };
-    let q = if may_miss {
+    let mut q = if may_miss {
         let kept = &position_decision.kept;
         nearest_configuration(
             &mechanism,
@@ -341,6 +342,9 @@ fn on_rows(
     };
     let (StartVelocity { v, correction }, against) =
         start_velocity(&mechanism, start, &found, &q, &decision.kept)?;
+    if start.state.is_none() {
+        mechanism.start_states(&mut q, &v);
+    }
     if let Some(contradiction) = against {
         return Err(contradiction.into());
     }

@@ -26,7 +26,7 @@ mod tests;
 mod way;
 
 use linalg::{Matrix, SaddleError};
-use model::CalledForce;
+use model::ForceWithoutDerivatives;
 
 pub use kept_rows::KeptRows;
 pub use minimum_norm::MinimumNorm;
@@ -81,7 +81,7 @@ pub enum Fault {
     },
     /// The method needs derivatives of the forces, but a force has no derivatives.
     #[error(transparent)]
-    Called(#[from] CalledForce),
+    Called(#[from] ForceWithoutDerivatives),
     /// Newton's method does not converge in an implicit step.
     #[error("the equations of a step cannot be solved")]
     Newton,

@@ -15,12 +15,12 @@ mod undefined;
 
 pub(crate) use drive::{full, law_drive};
 pub use error::LawError;
-pub use operation::{Join, Operation, UnaryFunction};
+pub use operation::{Join, LawState, Operation, UnaryFunction};
 pub use undefined::UndefinedValue;
 
 use crate::called::{CallError, CalledFunction, DriveState};
 use number::{Slope, Smooth};
-use program::Program;
+use program::{Program, kept};
 
 /// A force or torque as a function of a joint coordinate, its rate and time.
 ///
@@ -140,13 +140,22 @@ impl Law {
         }
     }
 
-    /// Returns the force (N) or torque (N·m). The function does not allocate memory, unless a
-    /// callback does.
+    /// Returns the number of states of the law.
+    #[must_use]
+    pub fn n_states(&self) -> usize {
+        match &self.form {
+            Form::Program(program) => program.n_states(),
+            Form::Called(_) => 0,
+        }
+    }
+
+    /// Returns the force (N) or torque (N·m). States of the law have their values at the start. The
+    /// function does not allocate memory, unless a callback does.
     ///
     /// # Errors
     /// Returns an error if the force has no finite value.
     pub fn value(&self, measure: f64, rate: f64, t: f64) -> Result<f64, UndefinedValue> {
-        self.force([measure, rate, t])
+        self.follow([measure, rate, t], LawState::start)
     }
 
     /// Returns the force or torque with its derivatives with respect to the joint coordinate and
@@ -157,21 +166,35 @@ impl Law {
     /// Returns an error if the force is not finite, and [`UndefinedValue::ValueAlone`] if the law
     /// calls a callback.
     pub fn slopes(&self, measure: f64, rate: f64, t: f64) -> Result<[f64; 3], UndefinedValue> {
-        let Slope { value, by } = self.slope([measure, rate, t])?;
+        let Slope { value, by } = self.slope([measure, rate, t], &[])?;
         Ok([value, by[0], by[1]])
     }
 
     /// Returns the value for a joint coordinate, its rate and the time.
-    fn force<T: Smooth>(&self, inputs: [T; 3]) -> Result<T, UndefinedValue> {
+    fn force<T: Smooth>(
+        &self,
+        inputs: [T; 3],
+        states: impl Iterator<Item = T>,
+    ) -> Result<T, UndefinedValue> {
+        self.follow(inputs, kept(states))
+    }
+
+    /// Returns the value for a joint coordinate, its rate and the time. `keep` returns the value of
+    /// the next state.
+    fn follow<T: Smooth>(
+        &self,
+        inputs: [T; 3],
+        keep: impl FnMut(LawState, [T; 2]) -> T,
+    ) -> Result<T, UndefinedValue> {
         match &self.form {
-            Form::Program(program) => program.evaluate(inputs),
+            Form::Program(program) => program.evaluate(inputs, keep),
             Form::Called(function) => T::called(function, inputs),
         }
     }
 
-    fn slope<T: Smooth>(&self, inputs: [T; 3]) -> Result<Slope<T>, UndefinedValue> {
+    fn slope<T: Smooth>(&self, inputs: [T; 3], states: &[T]) -> Result<Slope<T>, UndefinedValue> {
         match &self.form {
-            Form::Program(program) => program.slope(inputs),
+            Form::Program(program) => program.slope(inputs, states),
             Form::Called(_) => Err(UndefinedValue::ValueAlone),
         }
     }

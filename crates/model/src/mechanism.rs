@@ -15,6 +15,8 @@ mod kernels;
 mod loads;
 mod part;
 mod same;
+mod spins;
+mod states;
 mod time_function;
 mod turn;
 mod work;
@@ -31,7 +33,9 @@ pub use build::Buildable;
 pub use build_error::BuildError;
 pub use derivatives::{Derivatives, Sparse};
 pub(crate) use elements::{Elements, KernelInput};
-pub use forces::{AppliedForce, AppliedForces, CalledForce, Push, UndefinedForce};
+pub use forces::{
+    AppliedForce, AppliedForces, DerivativeGap, ForceWithoutDerivatives, Push, UndefinedForce,
+};
 pub(crate) use initial::{initialise, unmet_requirement, unmet_rows};
 pub(crate) use kernels::gyroscopic;
 pub use loads::{ForceMeasure, Load, Loads};
@@ -77,6 +81,9 @@ pub struct Mechanism {
     bodies: Vec<BodyRecord>,
     pub(crate) elements: Elements,
     mass: Vec<f64>,
+    /// Columns of the rotations without inertia that influence nothing (free spins). Their entries
+    /// in `mass` are positive.
+    free_spins: Vec<usize>,
     weight: Vec<f64>,
     tolerance: Tolerance,
     /// Longest arm of each body in the initial configuration (m).
@@ -182,7 +189,7 @@ impl Mechanism {
     }
 
     /// Returns the coordinates of the bodies in a configuration. The coordinates of the bodies are
-    /// all coordinates except the unwrapped angles.
+    /// all coordinates except the unwrapped angles and the states of force laws.
     pub fn of_bodies<'q, T>(&self, q: &'q [T]) -> &'q [T] {
         &q[..self.layout.angles().start.min(q.len())]
     }
@@ -203,7 +210,7 @@ impl Mechanism {
     }
 
     /// Copies the coordinates of these columns of C from another configuration exactly, and also
-    /// all unwrapped angles.
+    /// all unwrapped angles and all states of force laws.
     pub fn take(&self, q: &mut [f64], from: &[f64], columns: &[usize]) {
         self.space().take(q, from, columns);
         let first = self.layout.angles().start;
@@ -221,7 +228,31 @@ impl Mechanism {
     /// Returns the kinetic energy at velocities v (J).
     #[must_use]
     pub fn kinetic_energy(&self, v: &[f64]) -> f64 {
-        self.mass.iter().zip(v).map(|(m, v)| 0.5 * m * v * v).sum()
+        let energy = |(m, v): (&f64, &f64)| 0.5 * m * v * v;
+        let spins = self.free_spins.iter().map(|&j| (&self.mass[j], &v[j]));
+        self.mass.iter().zip(v).map(energy).sum::<f64>() - spins.map(energy).sum::<f64>()
+    }
+
+    /// Returns the principal moments of a body in space (kg·m²). The moment of a free spin is zero.
+    pub(crate) fn moments(&self, body: usize) -> [f64; 3] {
+        let first = self.space().rotations_of(body).start;
+        [first, first + 1, first + 2].map(|j| match self.free_spins.binary_search(&j) {
+            Ok(_) => 0.0,
+            Err(_) => self.mass[j],
+        })
+    }
+
+    /// Gives the free spins positive entries of M: the largest moment of inertia of the body, or
+    /// the moment of its mass at one metre.
+    fn set_free_spins(&mut self, columns: Vec<usize>) {
+        for &j in &columns {
+            let body = self.space().body_of(j);
+            let own = &self.mass[self.space().rotations_of(body)];
+            let largest = own.iter().fold(0.0, |a: f64, &j| a.max(j));
+            let candidates = [largest, self.bodies[body].mass, 1.0];
+            self.mass[j] = candidates.into_iter().find(|&m| m > 0.0).unwrap_or(1.0);
+        }
+        self.free_spins = columns;
     }
 
     /// Returns the rate of the sum of the kinetic energy and the potential energy of gravity (W),
@@ -248,11 +279,19 @@ impl Mechanism {
         let n = self.space().n_q();
         match self.bodies.get(k / n) {
             Some(body) => in_space!(self.space(), S => (body.name.as_str(), S::COORDINATES[k % n])),
-            None => (
-                self.elements
-                    .counted_name(k - n * self.bodies.len(), &self.layout.groups),
-                "angle with its turns",
-            ),
+            None => {
+                let angles = self.layout.angles();
+                match self.elements.state_name(k.wrapping_sub(angles.end)) {
+                    Some(name) if k >= angles.end => (name, "state of the law"),
+                    _ => {
+                        let (k, groups) = (k - angles.start, &self.layout.groups);
+                        (
+                            self.elements.counted_name(k, groups),
+                            "angle with its turns",
+                        )
+                    }
+                }
+            }
         }
     }
 

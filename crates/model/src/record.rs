@@ -214,8 +214,8 @@ fn run_on(mechanism: &Mechanism, inputs: &RecordedSlots) -> Results {
     mechanism.space().rate(q, v, &mut r.rate);
     for (body, omega) in inputs.spins().enumerate() {
         let at = layout.space.rotations_of(body);
-        let moments = [0, 1, 2].map(|k| mechanism.mass()[at.start + k]);
-        for (force, torque) in r.force[at].iter_mut().zip(gyroscopic(moments, omega)) {
+        let torques = gyroscopic(mechanism.moments(body), omega);
+        for (force, torque) in r.force[at].iter_mut().zip(torques) {
             *force = *force + torque;
         }
     }

@@ -19,7 +19,8 @@ pub trait System: Sync {
     /// Sizes, patterns and labels.
     fn layout(&self) -> &Layout;
 
-    /// Returns the diagonal of M, n_v values.
+    /// Returns the diagonal of M, n_v values. The entry of a rotation without inertia that
+    /// influences nothing is any positive number, so that the rotation has no angular acceleration.
     fn mass(&self) -> &[f64];
 
     /// Creates storage for one evaluation at a time.
@@ -47,7 +48,8 @@ pub trait System: Sync {
     /// Computes `s.force`: Q, n_v values.
     fn force(&self, s: &mut Scratch);
 
-    /// Computes q̇ = T(q)·v.
+    /// Computes q̇ = T(q)·v. The rates of states of force laws are zero here: they do not depend on
+    /// velocities alone; see [`Mechanism::state_rates`](crate::Mechanism::state_rates).
     fn rate(&self, q: &[f64], v: &[f64], qd: &mut [f64]);
 
     /// Moves the configuration q (n_q) by d (n_v): translations (m) and rotations (rad).
@@ -78,11 +80,13 @@ pub struct Layout {
     /// of reactions.
     pub space: SpaceKind,
     /// Number of coordinates. The coordinates of the bodies come first, followed by the unwrapped
-    /// angles.
+    /// angles and the states of force laws.
     pub n_q: usize,
     /// Number of unwrapped angles among the coordinates. Unwrapped angles are angles in space since
     /// the start, including full revolutions. Unwrapped angles exist for elements that need them.
     pub turns: usize,
+    /// Number of states of force laws among the coordinates. Their rates follow from the laws.
+    pub states: usize,
     /// Number of velocities.
     pub n_v: usize,
     /// Number of holonomic rows m, which come first.
@@ -120,9 +124,16 @@ impl Layout {
         !self.groups.iter().all(|group| group.limits.is_none())
     }
 
+    /// Returns the number of coordinates of the bodies.
+    #[must_use]
+    pub fn n_of_bodies(&self) -> usize {
+        self.angles().start
+    }
+
     /// Returns the range of the unwrapped angles in the coordinates.
     pub(crate) fn angles(&self) -> std::ops::Range<usize> {
-        self.n_q - self.turns..self.n_q
+        let end = self.n_q - self.states;
+        end - self.turns..end
     }
 
     /// Returns the last number before a time t (s) if t is a break time after the start; otherwise

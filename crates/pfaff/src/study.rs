@@ -455,10 +455,12 @@ impl Study {
     /// Returns an error if the state cannot be written into the text.
     pub fn text_at(&self, t: f64, q: &[f64], v: &[f64]) -> Result<String, KeyError> {
         let mechanism = &self.prepared.mechanism;
-        if mechanism.layout().turns > 0 {
-            let (name, _) = mechanism.coordinate_name(mechanism.layout().n_q - 1);
-            return Err(KeyError::Turns {
+        let layout = mechanism.layout();
+        if layout.n_q > layout.n_of_bodies() {
+            let (name, coordinate) = mechanism.coordinate_name(layout.n_of_bodies());
+            return Err(KeyError::Unstated {
                 name: name.to_owned(),
+                coordinate,
             });
         }
         let bodies = 0..mechanism.bodies().len();

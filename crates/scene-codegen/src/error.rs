@@ -1,7 +1,7 @@
 //! Reasons why no code can be generated for a mechanism.
 
 use dynamics::{MotionError, MotionFault};
-use model::CalledForce;
+use model::ForceWithoutDerivatives;
 use scene::{Diagnostic, KeyError};
 
 /// Reason why a module could not be generated.
@@ -51,7 +51,7 @@ pub enum CodeError {
     },
     /// A force uses a callback, which cannot be recorded.
     #[error("{0}, which generated code does not support; run this scene interpreted")]
-    Called(CalledForce),
+    Called(ForceWithoutDerivatives),
     /// The coordinates of bodies are neither angles (plane) nor quaternions (space); generated code
     /// supports only these.
     #[error(

@@ -346,7 +346,7 @@ pub(crate) fn recordable(mechanism: &Mechanism) -> Result<(), CodeError> {
     if !matches!(mechanism.space(), SpaceKind::Plane | SpaceKind::Space3) {
         return Err(CodeError::Coordinates);
     }
-    if let Some(force) = mechanism.applied_forces().called().next() {
+    if let Some(force) = mechanism.applied_forces().without_derivatives().next() {
         return Err(CodeError::Called(force));
     }
     if let Some(element) = mechanism.expression_of_time() {

@@ -35,7 +35,7 @@ use crate::dimension::Dimension;
 const DEEPEST: usize = 60;
 
 /// Functions and their arguments.
-const FUNCTIONS: [(&str, &str); 13] = [
+const FUNCTIONS: [(&str, &str); 15] = [
     ("sin", "an angle"),
     ("cos", "an angle"),
     ("tan", "an angle"),
@@ -49,7 +49,14 @@ const FUNCTIONS: [(&str, &str); 13] = [
     ("max", "two values"),
     ("exp", "a number"),
     ("log", "a number"),
+    (INTEGRAL, "a value"),
+    (LAG, "a value and a time"),
 ];
+
+/// The integral of a value since the start, in force laws only.
+const INTEGRAL: &str = "integral";
+/// A value through a first-order lag with a time constant, in force laws only.
+const LAG: &str = "lag";
 
 const PI_NAME: &str = "pi";
 
@@ -376,7 +383,7 @@ impl<'s, S: Scope, V: Value> Parser<'s, S, V> {
         whole: &Range<usize>,
     ) -> Option<V> {
         let wanted = match name {
-            "atan2" | "min" | "max" => 2,
+            "atan2" | "min" | "max" | LAG => 2,
             _ => 1,
         };
         let found = values.len();
@@ -425,6 +432,9 @@ impl Value for Quantity {
     }
 
     fn call(name: &'static str, q: &[Self], bases: Bases) -> Result<Self, (bool, Problem)> {
+        if let INTEGRAL | LAG = name {
+            return Err((false, Problem::OnlyInLaw { name }));
+        }
         // For functions of numbers and angles, the error is marked at the argument. For other
         // functions, the error is marked at the whole call.
         let x = match taken(name) {

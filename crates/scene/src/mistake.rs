@@ -178,9 +178,10 @@ impl From<&Problem> for Mistake {
             | Problem::PowerOfUnit { .. }
             | Problem::Root { .. }
             | Problem::Pi => Self::Units,
-            Problem::DivisionByZero | Problem::Undefined { .. } | Problem::Overflow => {
-                Self::NoValue
-            }
+            Problem::DivisionByZero
+            | Problem::Undefined { .. }
+            | Problem::OnlyInLaw { .. }
+            | Problem::Overflow => Self::NoValue,
         }
     }
 }

@@ -146,7 +146,7 @@ impl Analysis {
         let mut analysis = Self {
             time: t,
             bodies: mechanism.bodies().len(),
-            coordinates: layout.n_q - layout.turns,
+            coordinates: layout.n_of_bodies(),
             velocities: layout.n_v,
             size: 0.0,
             tolerance: mechanism.tolerance(),

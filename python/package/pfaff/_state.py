@@ -21,7 +21,7 @@ class State:
 
     The coordinates of a body are the position of its centre of mass, and its angle in the plane or
     the quaternion of its principal axes in space. If the scene has joint coordinates that count
-    revolutions, these angles follow. The velocities of a body are the velocity of its centre of
+    revolutions, these angles follow, and then the states of force laws. The velocities of a body are the velocity of its centre of
     mass in ground axes, and its angular velocity, in space in its principal axes. ``words()``
     describes each number.
     """

@@ -151,8 +151,10 @@ pub enum NoCode {
     /// The run does not project states onto the constraints.
     #[error("code needs projection as stabilisation, found {0}")]
     Stabilisation(&'static str),
-    /// A force calls an external function.
-    #[error("a force or a law calls a function, which generated code cannot do")]
+    /// A force calls an external function, or has a law with states.
+    #[error(
+        "a force calls a function or has a law with a state, which generated code does not contain"
+    )]
     Called,
     /// Rows may be redundant only within a stated tolerance, and their constraint violation is a
     /// result of the run.
@@ -310,7 +312,13 @@ impl PreparedMechanism {
             Stabilisation::Projection => {}
             other => return Err(NoCode::Stabilisation(other.name())),
         }
-        if self.mechanism.applied_forces().called().next().is_some() {
+        if self
+            .mechanism
+            .applied_forces()
+            .without_derivatives()
+            .next()
+            .is_some()
+        {
             return Err(NoCode::Called);
         }
         if self.may_miss {

@@ -2,7 +2,7 @@
 
 use model::codes::Code;
 use model::words::{estimate, listed, rough, rounded};
-use model::{CalledForce, StartError};
+use model::{ForceWithoutDerivatives, StartError};
 
 /// An unbalanced force along a free motion.
 #[derive(Clone, Debug, PartialEq)]
@@ -84,7 +84,7 @@ pub enum EquilibriumError {
     #[error(
         "the search for an equilibrium needs derivatives of all forces, but {0}; give the drive a law of `measure`, `rate` and `t`, or simulate with dampers until the motion stops"
     )]
-    NoDerivatives(CalledForce),
+    NoDerivatives(ForceWithoutDerivatives),
     /// An intermediate configuration cannot be assembled.
     #[error("during the search for an equilibrium {0}")]
     Start(#[from] StartError),

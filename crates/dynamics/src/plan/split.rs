@@ -5,7 +5,7 @@
 //! the component. Therefore one sentence is sufficient to describe the choice of rows.
 
 use model::start::scene_size;
-use model::{Assembly, Mechanism, Part, Places, System};
+use model::{Assembly, DerivativeGap, Mechanism, Part, Places, System};
 
 use super::decided::Decision;
 use super::saving::Cost;
@@ -30,7 +30,8 @@ pub(super) fn split(
             _ => "all bodies are connected".to_owned(),
         }));
     }
-    if let Some(called) = whole.mechanism.applied_forces().called().next() {
+    let mut forces = whole.mechanism.applied_forces().without_derivatives();
+    if let Some(called) = forces.find(|force| force.gap == DerivativeGap::Function) {
         let kind = called.kind();
         return Ok(stays(format!(
             "{kind} `{}` calls a function, which a single thread must call in the order of time",

@@ -14,7 +14,7 @@
 
 use integrators::Ode;
 use linalg::{Lu, Matrix};
-use model::{CalledForce, Derivatives, Mechanism, Scratch, System};
+use model::{Derivatives, ForceWithoutDerivatives, Mechanism, Scratch, System};
 
 use super::Fault;
 use super::equations::Equations;
@@ -74,7 +74,10 @@ pub(super) struct GeneralizedAlpha<'a> {
 
 impl<'a> GeneralizedAlpha<'a> {
     /// Creates the method; returns an error if a force calls a function without derivatives.
-    pub(super) fn new(mechanism: &'a Mechanism, kept: &[usize]) -> Result<Self, CalledForce> {
+    pub(super) fn new(
+        mechanism: &'a Mechanism,
+        kept: &[usize],
+    ) -> Result<Self, ForceWithoutDerivatives> {
         let (layout, r) = (mechanism.layout(), kept.len());
         let n = layout.n_v + r;
         let memory = Memory {

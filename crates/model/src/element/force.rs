@@ -212,6 +212,35 @@ impl PlacedForce {
         })
     }
 
+    /// Returns the number of states of the force law.
+    pub(crate) fn n_states(&self) -> usize {
+        self.element.n_states()
+    }
+
+    /// Computes the rates of the states of the force law.
+    pub(crate) fn state_rates(&self, s: &Slots, out: &mut [f64]) {
+        if let Some((turned, kernels)) = self.between() {
+            let (f, at) = (self.site.f(s), self.site.in_space(s));
+            return turned.with_frames(at, |x, v| kernels.state_rates(x, v, f, out));
+        }
+        with!(AnyForce, &self.element, element, S => {
+            let (x, v, f) = (self.site.x::<S>(s), self.site.v::<S>(&s.rates), self.site.f(s));
+            element.state_rates(x, v, f, out);
+        });
+    }
+
+    /// Computes the states of the force law at the start.
+    pub(crate) fn first_states(&self, s: &Slots, out: &mut [f64]) {
+        if let Some((turned, kernels)) = self.between() {
+            let (f, at) = (self.site.f(s), self.site.in_space(s));
+            return turned.with_frames(at, |x, v| kernels.first_states(x, v, f, out));
+        }
+        with!(AnyForce, &self.element, element, S => {
+            let (x, v, f) = (self.site.x::<S>(s), self.site.v::<S>(&s.rates), self.site.f(s));
+            element.first_states(x, v, f, out);
+        });
+    }
+
     /// Returns the reason why the callback has no value, or `None` if it has a value.
     pub(crate) fn undefined(&self, s: &Slots) -> Option<UndefinedValue> {
         if let Some((turned, kernels)) = self.between() {

@@ -230,6 +230,28 @@ pub trait ForceKernels<S: BodySpace = Plane>: ForceElement<f64, S> {
     fn is_called(&self) -> bool {
         false
     }
+    /// Returns the number of states of the force law.
+    fn n_states(&self) -> usize {
+        0
+    }
+    /// Computes the rates of the states of the force law. The states are the last values of `f`.
+    fn state_rates(
+        &self,
+        _x: &[S::Pose<f64>],
+        _v: &[S::Twist<f64>],
+        _f: &[[f64; 3]],
+        _out: &mut [f64],
+    ) {
+    }
+    /// Computes the states of the force law at the start.
+    fn first_states(
+        &self,
+        _x: &[S::Pose<f64>],
+        _v: &[S::Twist<f64>],
+        _f: &[[f64; 3]],
+        _out: &mut [f64],
+    ) {
+    }
     /// Returns the reason why the callback has no value, if the force is undefined because of the
     /// callback.
     fn undefined(
@@ -302,6 +324,11 @@ impl AnyConstraint {
 impl AnyForce {
     pub(crate) fn spec(&self) -> &'static ForceSpec {
         with!(AnyForce, self, element, _S => element.spec())
+    }
+
+    /// Returns the number of states of the force law.
+    pub(crate) fn n_states(&self) -> usize {
+        with!(AnyForce, self, element, _S => element.n_states())
     }
 
     pub(crate) fn points(&self) -> Vec<[f64; 3]> {

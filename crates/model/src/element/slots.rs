@@ -165,6 +165,22 @@ impl Slots {
     }
 }
 
+impl Slots {
+    /// Exchanges the pose and the velocity of one body of an element with another storage.
+    pub(crate) fn exchange(&mut self, other: &mut Self, site: &Site, body: usize) {
+        in_kernels!(self.space, S => {
+            for (k, own) in site.slots.clone().zip(&site.bodies) {
+                if own.moving() == Some(body) {
+                    let poses = (&mut self.poses, &mut other.poses);
+                    std::mem::swap(&mut S::poses_mut(poses.0)[k], &mut S::poses_mut(poses.1)[k]);
+                    let rates = (&mut self.rates.twists, &mut other.rates.twists);
+                    std::mem::swap(&mut S::twists_mut(rates.0)[k], &mut S::twists_mut(rates.1)[k]);
+                }
+            }
+        });
+    }
+}
+
 /// Velocities or accelerations of the bodies of each element.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Rates {

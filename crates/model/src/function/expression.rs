@@ -11,7 +11,8 @@ pub(super) struct Expression(Program);
 impl Expression {
     /// Checks that the operations have one result, and that time is their only variable.
     pub(super) fn new(operations: &[Operation]) -> Result<Self, LawError> {
-        let is_other = |o: &Operation| matches!(o, Operation::Measure | Operation::Rate);
+        let is_other =
+            |o: &Operation| matches!(o, Operation::Measure | Operation::Rate | Operation::Keep(_));
         if operations.iter().any(is_other) {
             return Err(LawError::Variable);
         }
@@ -26,7 +27,8 @@ impl Expression {
     /// at this time.
     pub(super) fn jet(&self, t: f64) -> [f64; 3] {
         let inputs = [Jet::from(0.0), Jet::from(0.0), Jet([t, 1.0, 0.0])];
-        self.0.evaluate(inputs).map_or([f64::NAN; 3], |jet| jet.0)
+        let value = self.0.evaluate(inputs, |_, _| Jet::from(f64::NAN));
+        value.map_or([f64::NAN; 3], |jet| jet.0)
     }
 
     pub(super) fn is_constant(&self) -> bool {

@@ -14,7 +14,7 @@ use joints::{
 };
 
 use super::number::Smooth;
-use super::{DriveForce, Law, LawError};
+use super::{DriveForce, Law, LawError, LawState};
 use crate::element::{BodySpace, DriveScalar, ForceKernels, Kinematics, PoseOf, RowsAt, TwistOf};
 
 /// Largest number of bodies of a joint with a force law. No joint of the library has more than
@@ -199,14 +199,45 @@ impl<S: Kinematics> LawDrive<S> {
         along
     }
 
+    /// Returns the joint coordinate, its rate and the time.
+    fn inputs(&self, x: &[PoseOf<S>], v: &[TwistOf<S>], f: &[[f64; 3]]) -> [f64; 3] {
+        let along = self.along::<f64>(x, f);
+        [along.measure, along.rate::<S>(v), f[0][0]]
+    }
+
     /// Returns the arguments and the result of the force law.
     fn drive_force(&self, x: &[PoseOf<S>], v: &[TwistOf<S>], f: &[[f64; 3]]) -> DriveForce {
-        let along = self.along::<f64>(x, f);
-        let (measure, rate) = (along.measure, along.rate::<S>(v));
+        let inputs = self.inputs(x, v, f);
         DriveForce {
-            measure,
-            rate,
-            force: self.law.value(measure, rate, f[0][0]),
+            measure: inputs[0],
+            rate: inputs[1],
+            force: self.law.force(inputs, self.states(f)),
+        }
+    }
+
+    /// Returns the states of the law, which are the last values of `f`.
+    fn states<'f, T: Copy>(&self, f: &'f [[T; 3]]) -> impl Iterator<Item = T> + 'f {
+        f[f.len() - self.law.n_states()..].iter().map(|jet| jet[0])
+    }
+
+    /// Writes a value for each state of the law. `next` returns this value and the value that the
+    /// law uses for the state.
+    fn write_states(
+        &self,
+        inputs: [f64; 3],
+        out: &mut [f64],
+        mut next: impl FnMut(LawState, [f64; 2]) -> [f64; 2],
+    ) {
+        let mut all = out.iter_mut();
+        let value = self.law.follow(inputs, |state, inputs| {
+            let [written, used] = next(state, inputs);
+            if let Some(out) = all.next() {
+                *out = written;
+            }
+            used
+        });
+        if value.is_err() {
+            out.fill(f64::NAN);
         }
     }
 
@@ -219,7 +250,8 @@ impl<S: Kinematics> LawDrive<S> {
         out: &mut [T],
     ) {
         let along = self.along::<T>(x, f);
-        let force = self.law.force([along.measure, along.rate::<S>(v), f[0][0]]);
+        let inputs = [along.measure, along.rate::<S>(v), f[0][0]];
+        let force = self.law.force(inputs, self.states(f));
         let force = force.unwrap_or_else(|_| T::from(f64::NAN));
         for (out, g) in out.iter_mut().zip(along.gradient) {
             *out = force * g;
@@ -263,7 +295,8 @@ impl<S: Kinematics> ForceElement<f64, S> for LawDrive<S> {
         let (element, spec) = (&self.drive, self.drive.spec());
         let along = self.along::<f64>(x, f);
         let (g, rate) = (along.gradient, along.rate::<S>(v));
-        let Ok(law) = self.law.slope([along.measure, rate, f[0][0]]) else {
+        let states: Vec<f64> = self.states(f).collect();
+        let Ok(law) = self.law.slope([along.measure, rate, f[0][0]], &states) else {
             return out.fill(f64::NAN);
         };
         let n = S::N_DOF * spec.common.slots.len();
@@ -290,7 +323,9 @@ impl<S: Kinematics> ForceElement<f64, S> for LawDrive<S> {
 
     fn dq_dv(&self, x: &[PoseOf<S>], v: &[TwistOf<S>], f: &[[f64; 3]], out: &mut [f64]) {
         let along = self.along::<f64>(x, f);
-        let law = self.law.slope([along.measure, along.rate::<S>(v), f[0][0]]);
+        let states: Vec<f64> = self.states(f).collect();
+        let inputs = [along.measure, along.rate::<S>(v), f[0][0]];
+        let law = self.law.slope(inputs, &states);
         let by_rate = law.map_or(f64::NAN, |law| law.by[1]);
         let n = S::N_DOF * self.drive.spec().common.slots.len();
         for (out, k) in out.iter_mut().zip(0..) {
@@ -325,6 +360,36 @@ macro_rules! force_kernels {
 
             fn is_called(&self) -> bool {
                 self.law.is_called()
+            }
+
+            fn n_states(&self) -> usize {
+                self.law.n_states()
+            }
+
+            fn state_rates(
+                &self,
+                x: &[PoseOf<$space>],
+                v: &[TwistOf<$space>],
+                f: &[[f64; 3]],
+                out: &mut [f64],
+            ) {
+                let mut states = self.states(f);
+                self.write_states(self.inputs(x, v, f), out, |state, inputs| {
+                    let own = states.next().unwrap_or(f64::NAN);
+                    [state.rate(inputs, own), own]
+                });
+            }
+
+            fn first_states(
+                &self,
+                x: &[PoseOf<$space>],
+                v: &[TwistOf<$space>],
+                f: &[[f64; 3]],
+                out: &mut [f64],
+            ) {
+                self.write_states(self.inputs(x, v, f), out, |state, inputs| {
+                    [state.start(inputs); 2]
+                });
             }
 
             fn with_law(&self, law: &Law) -> Option<Box<dyn ForceKernels<$space>>> {

@@ -15,6 +15,29 @@ pub enum Operation {
     Apply(UnaryFunction),
     /// Replaces the last two values by a function of both.
     Join(Join),
+    /// Replaces the last values by a state of the law, which these values drive.
+    Keep(LawState),
+}
+
+/// A state of a law, with its differential equation.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum LawState {
+    /// The integral of the value a since the start: `ẋ = a`, zero at the start.
+    Integral,
+    /// The value a through a first-order lag with the time constant b (s): `ẋ = (a − x)/b`. At the
+    /// start, x is a.
+    Lag,
+}
+
+impl Operation {
+    /// Returns the number of values that the operation replaces.
+    pub(crate) fn takes(self) -> usize {
+        match self {
+            Self::Number(_) | Self::Measure | Self::Rate | Self::Time => 0,
+            Self::Apply(_) | Self::Keep(LawState::Integral) => 1,
+            Self::Join(_) | Self::Keep(LawState::Lag) => 2,
+        }
+    }
 }
 
 /// A function of one variable.

@@ -3,7 +3,7 @@
 
 use super::error::{DEEPEST, LawError};
 use super::number::{LawNumber, Slope, Smooth};
-use super::{Operation, UndefinedValue};
+use super::{Join, LawState, Operation, UndefinedValue};
 
 /// A sequence of operations with one result.
 #[derive(Clone, Debug, PartialEq)]
@@ -14,12 +14,7 @@ impl Program {
     pub(crate) fn new(operations: &[Operation]) -> Result<Self, LawError> {
         let mut left: usize = 0;
         for operation in operations {
-            let takes = match operation {
-                Operation::Apply(_) => 1,
-                Operation::Join(_) => 2,
-                _ => 0,
-            };
-            let rest = left.checked_sub(takes);
+            let rest = left.checked_sub(operation.takes());
             left = rest.ok_or(LawError::Incomplete { left })? + 1;
             if left > DEEPEST {
                 return Err(LawError::Deep);
@@ -45,18 +40,27 @@ impl Program {
         &self.0
     }
 
+    /// Returns the number of states.
+    pub(crate) fn n_states(&self) -> usize {
+        let states = self.0.iter().filter(|o| matches!(o, Operation::Keep(_)));
+        states.count()
+    }
+
     /// Returns the value with its derivatives. A derivative that is not finite is replaced by 0.
     pub(super) fn slope<T: Smooth>(
         &self,
         [measure, rate, t]: [T; 3],
+        states: &[T],
     ) -> Result<Slope<T>, UndefinedValue> {
         let [zero, one] = [T::from(0.0), T::from(1.0)];
         let with = |value, by| Slope { value, by };
-        let Slope { value, by } = self.evaluate([
+        let inputs = [
             with(measure, [one, zero]),
             with(rate, [zero, one]),
             with(t, [zero, zero]),
-        ])?;
+        ];
+        let states = states.iter().map(|&x| with(x, [zero, zero]));
+        let Slope { value, by } = self.evaluate(inputs, kept(states))?;
         let finite = |x: T| match x.number() {
             Some(x) if !x.is_finite() => zero,
             _ => x,
@@ -64,9 +68,14 @@ impl Program {
         Ok(with(value, by.map(finite)))
     }
 
-    /// Returns the value of the program for a joint coordinate, its rate and the time. Every
-    /// intermediate result must be finite.
-    pub(crate) fn evaluate<T: LawNumber>(&self, inputs: [T; 3]) -> Result<T, UndefinedValue> {
+    /// Returns the value of the program for a joint coordinate, its rate and the time. `keep`
+    /// returns the value of the next state, and its argument are the values that drive the state.
+    /// Every intermediate result must be finite.
+    pub(crate) fn evaluate<T: LawNumber>(
+        &self,
+        inputs: [T; 3],
+        mut keep: impl FnMut(LawState, [T; 2]) -> T,
+    ) -> Result<T, UndefinedValue> {
         let mut stack = [inputs[0]; DEEPEST];
         let mut top = 0;
         let is_finite = |x: T| x.number().is_none_or(f64::is_finite);
@@ -74,13 +83,8 @@ impl Program {
             return Err(UndefinedValue::Input);
         }
         for &operation in &self.0 {
-            let taken = match operation {
-                Operation::Apply(_) => 1,
-                Operation::Join(_) => 2,
-                _ => 0,
-            };
             // The stack is large enough: its depth was checked when the law was created.
-            top -= taken;
+            top -= operation.takes();
             let (a, b) = (stack[top], stack[(top + 1).min(DEEPEST - 1)]);
             let result = match operation {
                 Operation::Number(x) => T::from(x),
@@ -89,12 +93,16 @@ impl Program {
                 Operation::Time => inputs[2],
                 Operation::Apply(f) => a.apply(f),
                 Operation::Join(j) => a.join(j, b),
+                Operation::Keep(state) => keep(state, [a, b]),
             };
             if !is_finite(result) {
                 let number = |x: T| x.number().unwrap_or_default();
                 return Err(match operation {
                     Operation::Apply(f) => UndefinedValue::Apply(f, number(a)),
                     Operation::Join(j) => UndefinedValue::Join(j, number(a), number(b)),
+                    Operation::Keep(LawState::Lag) => {
+                        UndefinedValue::Join(Join::Divide, number(a), number(b))
+                    }
                     _ => UndefinedValue::Input,
                 });
             }
@@ -102,5 +110,37 @@ impl Program {
             top += 1;
         }
         Ok(stack[0])
+    }
+}
+
+impl LawState {
+    /// Returns the rate of the state x for the values that drive it.
+    pub(super) fn rate<T: LawNumber>(self, [a, b]: [T; 2], x: T) -> T {
+        match self {
+            Self::Integral => a,
+            Self::Lag => a.join(Join::Subtract, x).join(Join::Divide, b),
+        }
+    }
+
+    /// Returns the state at the start.
+    pub(super) fn start<T: LawNumber>(self, [a, _]: [T; 2]) -> T {
+        match self {
+            Self::Integral => T::from(0.0),
+            Self::Lag => a,
+        }
+    }
+}
+
+/// Returns the states one after the other. A state without a finite rate has no value.
+pub(super) fn kept<T: LawNumber>(
+    states: impl IntoIterator<Item = T>,
+) -> impl FnMut(LawState, [T; 2]) -> T {
+    let mut states = states.into_iter();
+    move |state, inputs| {
+        let x = states.next().unwrap_or(T::from(f64::NAN));
+        match state.rate(inputs, x).number() {
+            Some(rate) if !rate.is_finite() => T::from(f64::NAN),
+            _ => x,
+        }
     }
 }

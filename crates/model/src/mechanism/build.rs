@@ -5,7 +5,8 @@ use std::ops::Range;
 use joints::spec::ConstraintSpec;
 
 use super::check;
-use super::elements::{CountedAngle, Owner};
+use super::elements::{CountedAngle, LawStates, Owner};
+use super::spins::free_spins;
 use super::turn;
 use super::work::held_bodies;
 use super::{BuildError, Elements, FunctionForm, KernelInput, Mechanism, TimeFunction, initialise};
@@ -86,6 +87,8 @@ impl<S: BodySpace> Buildable for MechanismDescription<S> {
         mechanism.observed = self.observed.clone();
         let (q, _) = mechanism.described_state();
         initialise(&mut mechanism, &q);
+        let spins = free_spins(&mechanism, &q);
+        mechanism.set_free_spins(spins);
         Ok(mechanism)
     }
 }
@@ -236,6 +239,15 @@ impl Builder {
             }
         }
         self.count(owner, element.spec().turns, &mut site);
+        let n = element.n_states();
+        if n > 0 {
+            let first = self.elements.given.len();
+            let states = std::iter::repeat_n(KernelInput::State, n);
+            self.elements.given.extend(states);
+            site.functions.end = first + n;
+            let force = self.elements.forces.len();
+            self.elements.states.push(LawStates { force, first, n });
+        }
         let mut placed = PlacedForce::new(name, element, site, turned);
         placed.signals = signals;
         self.elements.block = self.elements.block.max(placed.columns.len());
@@ -365,7 +377,9 @@ impl Builder {
     ) -> Mechanism {
         let space = self.layout.space;
         self.layout.turns = self.elements.counted.len();
-        self.layout.n_q = space.n_q() * bodies.len() + self.layout.turns;
+        self.layout.states = self.elements.states.iter().map(|own| own.n).sum();
+        let counted = self.layout.turns + self.layout.states;
+        self.layout.n_q = space.n_q() * bodies.len() + counted;
         self.layout.n_v = space.n_v() * bodies.len();
         self.layout.break_times.sort_by(f64::total_cmp);
         self.layout.break_times.dedup();
@@ -373,6 +387,7 @@ impl Builder {
         Mechanism {
             name: name.to_owned(),
             mass: mass.flat_map(inertia).collect(),
+            free_spins: Vec::new(),
             weight,
             tolerance: Tolerance::default(),
             observed: Observables::default(),

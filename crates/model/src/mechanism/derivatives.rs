@@ -5,7 +5,7 @@
 //! n_v columns. `∂/∂q` means the derivative with respect to a displacement along each velocity
 //! component.
 
-use super::{CalledForce, Mechanism};
+use super::{ForceWithoutDerivatives, Mechanism};
 use crate::element::Rates;
 use crate::space::SpaceKind;
 use crate::system::Scratch;
@@ -101,7 +101,7 @@ impl Derivatives {
     ///
     /// # Errors
     /// Returns an error if a force or a force law uses a callback, which has no derivatives.
-    pub fn of(mechanism: &Mechanism) -> Result<Self, CalledForce> {
+    pub fn of(mechanism: &Mechanism) -> Result<Self, ForceWithoutDerivatives> {
         let [force_dq, force_dv] = force_patterns(mechanism)?;
         Ok(Self {
             force_dq,
@@ -159,7 +159,7 @@ impl Derivatives {
     /// let mut gamma = [0.0; 2];
     /// d.gamma_dv.add_product(&[0.0, 0.0, 1.0], &mut gamma);
     /// assert_eq!(gamma, [0.0, -12.0]);
-    /// # Ok::<(), pfaff_model::CalledForce>(())
+    /// # Ok::<(), pfaff_model::ForceWithoutDerivatives>(())
     /// ```
     ///
     /// # Panics
@@ -201,7 +201,10 @@ impl Derivatives {
     ///
     /// # Errors
     /// Returns the same errors as [`Derivatives::of`].
-    pub fn of_forces(mechanism: &Mechanism, s: &Scratch) -> Result<[Sparse; 2], CalledForce> {
+    pub fn of_forces(
+        mechanism: &Mechanism,
+        s: &Scratch,
+    ) -> Result<[Sparse; 2], ForceWithoutDerivatives> {
         let [mut by_q, mut by_v] = force_patterns(mechanism)?;
         differentiate_forces(mechanism, s, [&mut by_q, &mut by_v]);
         Ok([by_q, by_v])
@@ -209,10 +212,10 @@ impl Derivatives {
 }
 
 /// Allocates `∂Q/∂q` and `∂Q/∂v` if all forces have derivatives.
-fn force_patterns(mechanism: &Mechanism) -> Result<[Sparse; 2], CalledForce> {
+fn force_patterns(mechanism: &Mechanism) -> Result<[Sparse; 2], ForceWithoutDerivatives> {
     mechanism
         .applied_forces()
-        .called()
+        .without_derivatives()
         .next()
         .map_or(Ok(()), Err)?;
     let mut patterns = [Sparse::default(), Sparse::default()];
@@ -247,8 +250,7 @@ fn differentiate_forces(mechanism: &Mechanism, s: &Scratch, [by_q, by_v]: [&mut 
         force.dq_dv(&s.slots, force_dv(force.pattern_dv().len()));
     }
     for body in gyroscopic(mechanism) {
-        let first = mechanism.space().rotations_of(body).start;
-        let [jx, jy, jz] = [0, 1, 2].map(|k| mechanism.mass[first + k]);
+        let [jx, jy, jz] = mechanism.moments(body);
         let [x, y, z] = s.spins[body];
         let (a, b, c) = (jy - jz, jz - jx, jx - jy);
         let values = [a * z, a * y, b * x, b * z, c * y, c * x];

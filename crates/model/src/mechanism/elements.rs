@@ -18,6 +18,8 @@ pub(crate) struct Elements {
     /// The unwrapped angles. The angles of constraints come first, followed by the angles of
     /// forces.
     pub(crate) counted: Vec<CountedAngle>,
+    /// The states of force laws, in the order of the forces.
+    pub(crate) states: Vec<LawStates>,
     /// The constant entries of C; the other entries are zero.
     pub(crate) entries: Vec<f64>,
     pub(crate) n_slots: usize,
@@ -47,6 +49,10 @@ pub(crate) enum KernelInput {
     ///
     /// [`System::pose`]: crate::System::pose
     Counted,
+    /// A state of a force law; [`System::pose`] sets this value.
+    ///
+    /// [`System::pose`]: crate::System::pose
+    State,
     /// A value of a controller; [`Mechanism::command`] sets this value.
     ///
     /// [`Mechanism::command`]: super::Mechanism::command
@@ -57,7 +63,7 @@ impl KernelInput {
     pub(crate) fn function(&self) -> Option<&TimeFunction> {
         match self {
             Self::Function(function) => Some(function),
-            Self::Counted | Self::Signal => None,
+            Self::Counted | Self::State | Self::Signal => None,
         }
     }
 }
@@ -77,4 +83,15 @@ pub(crate) struct CountedAngle {
 pub(super) enum Owner {
     Constraint(usize),
     Force(usize),
+}
+
+/// The states of one force law.
+#[derive(Clone)]
+pub(crate) struct LawStates {
+    /// Index of the force.
+    pub(super) force: usize,
+    /// Index of the first state among the arguments of kernels.
+    pub(super) first: usize,
+    /// Number of the states.
+    pub(super) n: usize,
 }

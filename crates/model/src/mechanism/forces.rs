@@ -25,18 +25,32 @@ pub struct AppliedForce<'m> {
     pub points: Vec<(BodyRef, [f64; 3])>,
 }
 
-/// A force or a force law that uses a callback and therefore has no derivatives.
+/// A force or a force law whose derivatives with respect to coordinates and velocities are unknown.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("{kind} `{name}` calls a function, which has no derivatives", kind = self.kind())]
+#[error("{kind} `{name}` {gap}", kind = self.kind())]
 #[non_exhaustive]
-pub struct CalledForce {
+pub struct ForceWithoutDerivatives {
     /// Name of the force or drive.
     pub name: String,
     /// Whether the force is a drive with a force law.
     pub is_drive: bool,
+    /// The reason.
+    pub gap: DerivativeGap,
 }
 
-impl CalledForce {
+/// Reason why a force has no derivatives.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
+pub enum DerivativeGap {
+    /// The force calls a function, which returns only values.
+    #[error("calls a function, which has no derivatives")]
+    Function,
+    /// The force depends on states of its law, which are not coordinates of the bodies.
+    #[error("has a law with a state (`integral` or `lag`), which has no derivatives")]
+    State,
+}
+
+impl ForceWithoutDerivatives {
     /// Returns "drive" or "force".
     #[must_use]
     pub fn kind(&self) -> &'static str {
@@ -204,18 +218,20 @@ impl<'m> AppliedForces<'m> {
         all
     }
 
-    /// Returns the forces that use a callback and therefore have no derivatives, in the order of
-    /// the forces.
-    pub fn called(self) -> impl Iterator<Item = CalledForce> {
-        let called = self
-            .0
-            .elements
-            .forces
-            .iter()
-            .filter(|force| force.is_called());
-        called.map(|force| CalledForce {
-            name: force.name.clone(),
-            is_drive: force.is_law(),
+    /// Returns the forces without derivatives, in the order of the forces. These forces use a
+    /// callback or states of a law.
+    pub fn without_derivatives(self) -> impl Iterator<Item = ForceWithoutDerivatives> {
+        self.0.elements.forces.iter().filter_map(|force| {
+            let gap = match (force.is_called(), force.n_states()) {
+                (true, _) => DerivativeGap::Function,
+                (false, 0) => return None,
+                (false, _) => DerivativeGap::State,
+            };
+            Some(ForceWithoutDerivatives {
+                name: force.name.clone(),
+                is_drive: force.is_law(),
+                gap,
+            })
         })
     }
 

@@ -63,6 +63,7 @@ impl System for Mechanism {
         }
         let known = &q[self.layout.angles()];
         self.elements.count_turns(known, &mut s.slots);
+        self.take_states(&q[self.layout.angles().end..], s);
     }
 
     fn phi(&self, s: &mut Scratch) {
@@ -118,8 +119,8 @@ impl System for Mechanism {
         s.force.copy_from_slice(&self.weight);
         for (body, &omega) in s.spins.iter().enumerate() {
             let at = self.space().rotations_of(body);
-            let moments = [0, 1, 2].map(|k| self.mass[at.start + k]);
-            for (force, torque) in s.force[at].iter_mut().zip(gyroscopic(moments, omega)) {
+            let torques = gyroscopic(self.moments(body), omega);
+            for (force, torque) in s.force[at].iter_mut().zip(torques) {
                 *force += torque;
             }
         }
@@ -135,8 +136,9 @@ impl System for Mechanism {
 
     fn rate(&self, q: &[f64], v: &[f64], qd: &mut [f64]) {
         self.space().rate(q, v, qd);
-        let rates = &mut qd[self.layout.angles().start..];
+        let (rates, states) = qd[self.layout.angles().start..].split_at_mut(self.layout.turns);
         self.elements.rate_of_angles(q, v, rates);
+        states.fill(0.0);
     }
 
     fn displace(&self, q: &mut [f64], d: &[f64]) {

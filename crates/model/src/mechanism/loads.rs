@@ -212,7 +212,7 @@ impl<'m> Loads<'m> {
         let mut inertia: Vec<f64> = mass.iter().zip(a).map(|(m, a)| -m * a).collect();
         if let Some(&omega) = self.s.spins.get(body) {
             let own = space.rotations_of(body).start - columns.start;
-            let turning = gyroscopic([0, 1, 2].map(|k| mass[own + k]), omega);
+            let turning = gyroscopic(mechanism.moments(body), omega);
             for (x, torque) in inertia[own..].iter_mut().zip(turning) {
                 *x += torque;
             }

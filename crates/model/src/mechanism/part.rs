@@ -204,7 +204,10 @@ fn assembled<'a>(
     };
     let mut coordinates = places(whole.space().n_q());
     let counted = whole.elements.counted_of(groups, &own_forces);
-    coordinates.extend(counted.map(|k| whole.layout.angles().start + k));
+    let angles = whole.layout.angles();
+    coordinates.extend(counted.map(|k| angles.start + k));
+    let states = whole.elements.states_of(&own_forces).into_iter();
+    coordinates.extend(states.map(|k| angles.end + k));
     let velocities = places(whole.space().n_v());
     let own = bodies.iter().map(|&k| whole.bodies[k].clone()).collect();
     let weight = velocities.iter().map(|&j| whole.weight[j]).collect();
@@ -215,6 +218,9 @@ fn assembled<'a>(
     let mut mechanism = b.finish(&whole.name, own, weight);
     mechanism.tolerance = whole.tolerance;
     mechanism.observed = whole.observed.stated_for(here);
+    let is_free = |(_, j): &(usize, &usize)| whole.free_spins.binary_search(j).is_ok();
+    let spins = velocities.iter().enumerate().filter(is_free);
+    mechanism.set_free_spins(spins.map(|(own, _)| own).collect());
     mechanism.reach = bodies.iter().map(|&k| whole.reach[k]).collect();
     let places = Places {
         bodies: bodies.to_vec(),

@@ -24,7 +24,10 @@ impl Mechanism {
     pub fn has_constraints_of(&self, other: &Self) -> bool {
         let is_recorded = |m: &Self| {
             let known = matches!(m.space(), SpaceKind::Plane | SpaceKind::Space3);
-            known && m.layout.turns == 0 && m.elements.controllers.is_empty()
+            known
+                && m.layout.turns == 0
+                && m.layout.states == 0
+                && m.elements.controllers.is_empty()
         };
         let bits = |x: &[f64]| -> Vec<u64> { x.iter().map(|x| x.to_bits()).collect() };
         let stated = |m: &Self| {

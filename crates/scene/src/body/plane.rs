@@ -17,7 +17,7 @@ const MASS: Key = number("mass", "a number ≥ 0", Interval::NotNegative)
 const INERTIA: Key = number("inertia", "a number ≥ 0", Interval::NotNegative)
     .needed()
     .unit(Dimension::INERTIA)
-    .doc("Moment of inertia about the centre of mass");
+    .doc("Moment of inertia about the centre of mass; 0 for a point mass");
 const CENTRE: Key = Key::pair("centre")
     .unit(Dimension::LENGTH)
     .doc("Centre of mass [x, y] in the frame of the body; points of joints, `position` and `velocity` belong to the frame")

@@ -69,6 +69,8 @@ pub(crate) enum Problem {
     DivisionByZero,
     #[error("{name} is not defined for {}", rounded(*.value))]
     Undefined { name: &'static str, value: f64 },
+    #[error("`{name}` needs a law of a drive: it has a state")]
+    OnlyInLaw { name: &'static str },
     #[error("the result is not a number up to {LARGEST:e}")]
     Overflow,
 }
@@ -112,6 +114,7 @@ impl Problem {
             Self::Pi => "needs its unit",
             Self::DivisionByZero => "is zero",
             Self::Undefined { .. } => "not a number",
+            Self::OnlyInLaw { .. } => "not here",
             Self::Overflow => "not a usable number",
         }
     }

@@ -6,12 +6,12 @@
 //! or a sum determines the dimension, such a term is a number in the units of the scene, like a
 //! bare number. The sine of a variable is a bare number, as the sine of a constant is.
 
-use model::law::{Join, Law, LawError, Operation, UnaryFunction};
+use model::law::{Join, Law, LawError, LawState, Operation, UnaryFunction};
 use model::{Function, FunctionError};
 
 use super::quantity::{Bases, Quantity};
 use super::unit::TIME;
-use super::{Fault, Problem, Scope, Value, parse, taken};
+use super::{Fault, INTEGRAL, LAG, Problem, Scope, Value, parse, taken};
 use crate::dimension::Dimension;
 
 const MEASURE: &str = "measure";
@@ -65,6 +65,15 @@ pub(crate) fn of_time(
     scope: &impl Scope,
 ) -> Result<Function, Vec<Fault>> {
     let work = operations(text, &[time()], result, scope)?;
+    let mut states = work.iter().filter_map(|operation| match operation {
+        Operation::Keep(LawState::Integral) => Some(INTEGRAL),
+        Operation::Keep(LawState::Lag) => Some(LAG),
+        _ => None,
+    });
+    if let Some(name) = states.next() {
+        let (problem, span) = (Problem::OnlyInLaw { name }, 0..text.len());
+        return Err(vec![Fault { span, problem }]);
+    }
     Function::expression(&work).map_err(|error| {
         vec![match &error {
             FunctionError::Operations(error) => refused(text, error),
@@ -299,6 +308,41 @@ impl Variable {
     }
 }
 
+/// Returns the state of a law, which these values drive.
+fn kept(name: &str, values: &[LawTerm], bases: Bases) -> Result<LawTerm, Problem> {
+    let driving = values[0].clone();
+    let of = driving.dimension();
+    let driving = match of {
+        Some(of) => driving.at(of, bases)?,
+        None => driving.bare(bases)?,
+    };
+    let mut work = driving.work;
+    let (state, dimension) = match values.get(1) {
+        Some(time) if name == LAG => {
+            let time = time.clone().at(Dimension::TIME, bases)?;
+            if let [Operation::Number(value)] = time.work[..]
+                && value <= 0.0
+            {
+                let name = "a lag";
+                return Err(Problem::Undefined { name, value });
+            }
+            work.extend(time.work);
+            (LawState::Lag, of)
+        }
+        _ => (
+            LawState::Integral,
+            of.map(|of| of.times(Dimension::TIME, 1)),
+        ),
+    };
+    work.push(Operation::Keep(state));
+    Ok(LawTerm::Variable(Variable {
+        dimension,
+        is_bare: driving.is_bare && state == LawState::Lag,
+        has_pi: driving.has_pi,
+        work,
+    }))
+}
+
 impl Value for LawTerm {
     fn negated(self) -> Self {
         match self {
@@ -340,6 +384,9 @@ impl Value for LawTerm {
                 Self::Variable(_) => None,
             })
             .collect();
+        if let INTEGRAL | LAG = name {
+            return kept(name, values, bases).map_err(|e| (false, e));
+        }
         if let Some(constants) = constants {
             return Quantity::call(name, &constants, bases).map(Self::Constant);
         }

@@ -59,13 +59,16 @@ pub enum KeyError {
         /// The names of the parts of this value.
         parts: Vec<String>,
     },
-    /// A state contains full revolutions of an angle, which no key can state.
+    /// A state contains a coordinate that no key can state: full revolutions of an angle, or a
+    /// state of a force law.
     #[error(
-        "the angle of `{name}` includes full revolutions, which a scene cannot state; start a run at the state itself"
+        "the state contains the {coordinate} of `{name}`, which a scene cannot state; start a run at the state itself"
     )]
-    Turns {
-        /// The joint, drive or force with the angle.
+    Unstated {
+        /// The joint, drive or force with the coordinate.
         name: String,
+        /// Name of the coordinate.
+        coordinate: &'static str,
     },
     /// The key is missing in the text and cannot be added, because its table has neither a header
     /// nor braces.
@@ -94,7 +97,7 @@ impl KeyError {
             | Self::Index { .. }
             | Self::NotANumber { .. }
             | Self::NoRoom { .. }
-            | Self::Turns { .. }
+            | Self::Unstated { .. }
             | Self::Repeated { .. } => const { Code::new(501) },
         }
     }

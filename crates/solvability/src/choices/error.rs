@@ -3,7 +3,7 @@
 use linalg::SaddleError;
 use model::codes::Code;
 use model::words::short;
-use model::{CalledForce, RowLabel};
+use model::{ForceWithoutDerivatives, RowLabel};
 use rank::{Doubt, KeptRowsError};
 
 use crate::groups::RequestError;
@@ -23,7 +23,7 @@ pub enum ChoiceError {
     Saddle(#[from] SaddleError),
     /// Derivatives of forces are required, but a force calls an external function.
     #[error(transparent)]
-    Called(#[from] CalledForce),
+    Called(#[from] ForceWithoutDerivatives),
     /// Redundant rows require different accelerations, so no reactions exist.
     #[error(
         "row {} requires an acceleration that differs by {by} from the acceleration of the kept rows (rounding error: {allowed}): no reactions satisfy both",

@@ -63,7 +63,7 @@ impl CheckAnswer {
             ok: true,
             scene: scene.name().to_owned(),
             bodies: mechanism.bodies().len(),
-            coordinates: layout.n_q - layout.turns,
+            coordinates: layout.n_of_bodies(),
             velocities: layout.n_v,
             holonomic_rows: layout.m,
             nonholonomic_rows: layout.h,
