@@ -294,10 +294,43 @@ def test_a_text_cannot_state_revolutions() -> None:
         .joint("screw", "screw", ["ground", "nut"], at=[0, 0, 0], axis=[0, 0, 1], pitch=0.01)
     )
     run = screw.simulate(t_end=1.0, output_step=0.5)
-    with pytest.raises(pfaff.InputError, match="full revolutions"):
+    with pytest.raises(pfaff.InputError, match="angle with its turns"):
         run.scene_at(0.5)
     rest = screw.simulate(t_end=1.0, output_step=0.5, start=run.state(1))
     np.testing.assert_allclose(rest.q[-1], run.q[-1], atol=1e-9)
+
+
+def test_states_of_laws_belong_to_the_state() -> None:
+    scene = (
+        pfaff.Scene("servo")
+        .body("arm", mass=1.0, inertia=1.0, angle=0.2)
+        .joint("hinge", "revolute", ["ground", "arm"], at=[0.0, 0.0])
+        .drive(
+            "motor",
+            joint="hinge",
+            type="angle",
+            torque="-9*(measure - 0.5) - 4*lag(rate, 0.05) - 6*integral(measure - 0.5)",
+        )
+    )
+
+    def rates(_: float, y: Any) -> list[float]:
+        angle, omega, filtered, integral = y
+        error = angle - 0.5
+        torque = -9.0 * error - 4.0 * filtered - 6.0 * integral
+        return [omega, torque, (omega - filtered) / 0.05, error]
+
+    expected = solve_ivp(rates, (0.0, 2.0), [0.2, 0.0, 0.0, 0.0], rtol=1e-12, atol=1e-13).y[:, -1]
+    state = scene.state()
+    assert state.words()[0][3:] == ["motor: state of the law"] * 2
+    simulator = pfaff.Simulator(scene, rtol=1e-10, atol=1e-12)
+    for _ in range(10):
+        simulator.step(0.2)
+    found = simulator.state
+    order = [found.q[2], found.v[2], found.q[3], found.q[4]]
+    np.testing.assert_allclose(order, expected, rtol=0.0, atol=1e-8)
+    run = scene.simulate(2.0, rtol=1e-10, atol=1e-12)
+    with pytest.raises(pfaff.InputError, match="state of the law of `motor`"):
+        run.scene_at(1.0)
 
 
 def test_a_simulator_hears_ctrl_c_and_lets_threads_go_on() -> None:
