@@ -142,6 +142,6 @@ force = [{ name = "spring", type = "spring-damper", bodies = ["ground", "bob"], 
 "#;
     let study = study(scene);
     let refused = study.run(&MotionOptions::to(1.0), |_| Ok(ControlFlow::Continue(())));
-    let error = refused.err().expect("refused").error.to_string();
+    let error = refused.expect_err("refused").error.to_string();
     assert!(error.contains("`bob` can move its angle freely"), "{error}");
 }
