@@ -10,6 +10,7 @@ mod jacobi;
 mod large;
 mod limits;
 mod lu;
+mod mass;
 mod matrix;
 mod qr;
 mod regularized;
@@ -30,6 +31,7 @@ pub use equilibrate::{Scaling, equilibrate, equilibrate_blocks, equilibrate_spar
 pub use jacobi::{SmallSvd, SymmetricEigen, small_svd, symmetric_eigen};
 pub use limits::GRADED_MASSES;
 pub use lu::{Determinant, Lu, SingularPivot};
+pub use mass::{AddedMass, MassMatrix};
 pub use matrix::{Matrix, ShapeError};
 pub use qr::{PivotedQr, RowBasis};
 pub use regularized::{DampedRows, StepError, least_squares_step};

@@ -5,6 +5,9 @@
 //! | C  0  | | λ | = | γ |     M = diag(m) ≥ 0 (n), C of full row rank (r×n)
 //! ```
 //!
+//! M may also have a few rows, `M = diag(m) + Gᵀ·A·G` ([`MassMatrix`]). The reduced mass then
+//! contains `(G·N)ᵀ·A·(G·N)`.
+//!
 //! Sparse LU of the tall Cᵀ gives a null space basis N of C. The pivots are large entries of a row
 //! that cause little work for the other rows. The reduced mass `Nᵀ·M·N` (order k = n − r) is
 //! factored by Cholesky (as L·D·Lᵀ), and λ is computed with the same LU. M is never inverted, so
@@ -43,7 +46,7 @@ mod solve;
 mod tests;
 
 use crate::limits::{CANCELLED, GRADED_MASSES, VECTORS};
-use crate::{Lu, SparseMatrix};
+use crate::{Lu, MassMatrix, SparseMatrix};
 use free::FreeMotions;
 use lists::Entry;
 use lu::TallLu;
@@ -149,7 +152,10 @@ impl KeptRowSaddle {
     ///
     /// # Errors
     /// Returns the same errors as these two functions.
-    pub fn of_rows(c: &SparseMatrix, mass: &[f64]) -> Result<Self, SaddleError> {
+    pub fn of_rows<'m>(
+        c: &SparseMatrix,
+        mass: impl Into<MassMatrix<'m>>,
+    ) -> Result<Self, SaddleError> {
         let columns: Vec<Vec<usize>> = (0..c.nrows()).map(|k| c.row(k).0.to_vec()).collect();
         let mut saddle = Self::with_columns(c.ncols(), &columns)?;
         saddle.factor(|k| c.row(k).1, mass)?;

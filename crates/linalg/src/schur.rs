@@ -23,6 +23,7 @@
 //! J. K. Reid, The multifrontal solution of indefinite sparse symmetric linear equations, ACM
 //! Trans. Math. Softw. 9 (1983) 302–325.
 
+mod added;
 mod factor;
 mod front;
 mod solve;
@@ -31,6 +32,7 @@ mod structure;
 mod tests;
 mod tiles;
 
+use added::ExtendedSystem;
 pub use structure::SchurStructure;
 use tiles::{Lane, SIDE, Tile, triangle};
 
@@ -56,6 +58,8 @@ pub struct SchurSaddle {
     is_factored: bool,
     assembly: Assembly,
     work: SolutionScratch,
+    /// The equations that are solved if the mass matrix has rows.
+    extended: Option<Box<ExtendedSystem>>,
 }
 
 /// Factors `S = L·D·Lᵀ`, and the data from which they were computed.
@@ -114,12 +118,19 @@ impl SchurSaddle {
         let size = &structure.size;
         let zeros = [0.0; SIDE];
         let tile = [zeros; SIDE];
+        let mut usual = vec![[1.0; SIDE]; lanes];
+        // The rows of the mass matrix are always independent, so their pivots are not compared.
+        for &place in &structure.rows.place[structure.rows_of_c..] {
+            usual.as_flattened_mut()[place] = 0.0;
+        }
+        let extended = structure.extended.as_deref();
         Self {
+            extended: extended.map(|c| Box::new(ExtendedSystem::new(c.clone()))),
             factors: LdlFactors {
                 l: vec![tile; size.tiles],
                 inverse: vec![zeros; lanes],
                 diagonal: vec![zeros; lanes + 1],
-                usual: vec![[1.0; SIDE]; lanes],
+                usual,
                 compared: vec![zeros; lanes],
                 mass: vec![f64::NAN; n],
                 inverse_mass: vec![0.0; n],

@@ -1,5 +1,6 @@
 //! Errors of the solvers of saddle-point equations, and checks of the arguments of these solvers.
 
+use crate::AddedMass;
 use crate::kernels::all_finite;
 
 /// Error of a solver of saddle-point equations.
@@ -140,6 +141,30 @@ pub(crate) fn check_length<T>(
             expected,
         })
     }
+}
+
+/// Checks that the rows of a mass matrix are finite, and that they have no other columns than n.
+pub(crate) fn check_added(added: &AddedMass, n: usize) -> Result<(), SaddleError> {
+    if let Some((index, value)) = added.wrong() {
+        return Err(if value.is_finite() {
+            SaddleError::NegativeMass { index, value }
+        } else {
+            SaddleError::NonFinite {
+                argument: "added mass",
+                index,
+                value,
+            }
+        });
+    }
+    let found = added.n_columns();
+    if found > n {
+        return Err(SaddleError::Length {
+            argument: "row of the mass matrix",
+            found,
+            expected: n,
+        });
+    }
+    Ok(())
 }
 
 /// `first` is the index of `x[0]` in the argument.

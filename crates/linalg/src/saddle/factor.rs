@@ -1,8 +1,9 @@
 //! Factorisation: LU of Cᵀ row by row, null space basis, reduced mass.
 
-use super::error::{SaddleError, check_finite, check_length};
+use super::error::{SaddleError, check_added, check_finite, check_length};
 use super::lu::Elimination;
 use super::{KeptRowSaddle, mass_spread};
+use crate::MassMatrix;
 use crate::kernels::{extremes, max_abs};
 use crate::limits::{GRADED_BESIDE_MASSLESS, GRADED_MASSES, PIVOT_FLOOR};
 
@@ -25,13 +26,14 @@ impl KeptRowSaddle {
     /// - [`SaddleError::RankLost`]: a row depends on the previous rows to working precision.
     /// - [`SaddleError::MasslessMotion`]: M is not positive definite on ker C. The error contains
     ///   the motion.
-    pub fn factor<'c>(
+    pub fn factor<'c, 'm>(
         &mut self,
         row: impl Fn(usize) -> &'c [f64],
-        mass: &[f64],
+        mass: impl Into<MassMatrix<'m>>,
     ) -> Result<(), SaddleError> {
+        let mass = mass.into();
         self.prepare(&row, mass)?;
-        let graded = self.is_graded.then_some(mass);
+        let graded = self.is_graded.then_some(mass.diagonal());
         for j in 0..self.lu.n_rows() {
             let k = self.lu.order().rows[j];
             let row = (k, row(k));
@@ -65,11 +67,11 @@ impl KeptRowSaddle {
     ///
     /// # Errors
     /// Returns the same errors as [`KeptRowSaddle::factor`], without [`SaddleError::RankLost`].
-    pub fn factor_above<'c>(
+    pub fn factor_above<'c, 'm>(
         &mut self,
         floor: f64,
         row: impl Fn(usize) -> &'c [f64],
-        mass: &[f64],
+        mass: impl Into<MassMatrix<'m>>,
     ) -> Result<(), SaddleError> {
         self.factor_up_to(usize::MAX, floor, row, mass)
     }
@@ -79,15 +81,16 @@ impl KeptRowSaddle {
     ///
     /// # Errors
     /// Returns the same errors as [`KeptRowSaddle::factor_above`], and [`SaddleError::ManyFree`].
-    pub fn factor_up_to<'c>(
+    pub fn factor_up_to<'c, 'm>(
         &mut self,
         most_free: usize,
         floor: f64,
         row: impl Fn(usize) -> &'c [f64],
-        mass: &[f64],
+        mass: impl Into<MassMatrix<'m>>,
     ) -> Result<(), SaddleError> {
+        let mass = mass.into();
         self.prepare(&row, mass)?;
-        let graded = self.is_graded.then_some(mass);
+        let graded = self.is_graded.then_some(mass.diagonal());
         let floor = floor.max(PIVOT_FLOOR);
         for j in 0..self.lu.n_rows() {
             let k = self.lu.order().rows[j];
@@ -103,9 +106,11 @@ impl KeptRowSaddle {
     fn prepare<'c>(
         &mut self,
         row: impl Fn(usize) -> &'c [f64],
-        mass: &[f64],
+        mass: MassMatrix<'_>,
     ) -> Result<(), SaddleError> {
         self.is_factored = false;
+        check_added(mass.added(), self.lu.n)?;
+        let mass = mass.diagonal();
         check_length("mass", mass, self.lu.n)?;
         check_finite("mass", mass, 0)?;
         let [lightest, heaviest] = extremes(mass);
@@ -130,7 +135,7 @@ impl KeptRowSaddle {
     fn finish<'c>(
         &mut self,
         row: impl Fn(usize) -> &'c [f64],
-        mass: &[f64],
+        mass: MassMatrix<'_>,
     ) -> Result<(), SaddleError> {
         if self.lu.finish() {
             self.free.follow(&mut self.lu);

@@ -13,14 +13,18 @@ use super::lists::Entry;
 use super::lu::TallLu;
 use crate::kernels::{axpy, dot, max_abs};
 use crate::limits::RESERVED;
+use crate::{AddedMass, MassMatrix};
 
 /// Null space basis, masses, and factors of the reduced mass of k = n − r free motions.
 #[derive(Debug, Clone)]
 pub(super) struct FreeMotions {
     pub(super) basis: Basis,
     pub(super) k: usize,
-    /// Diagonal of M.
+    /// Diagonal of M, and its rows.
     pub(super) mass: Vec<f64>,
+    pub(super) added: AddedMass,
+    /// Product of a row of M and N, k values.
+    along: Vec<f64>,
     /// Squared norms of the null vectors without their free coordinates.
     squared: Vec<f64>,
     /// Factors L·D·Lᵀ of NᵀMN: unit lower L with D on the diagonal. The array is k×k and row-major;
@@ -157,6 +161,8 @@ impl FreeMotions {
             },
             k,
             mass: vec![0.0; n],
+            added: AddedMass::default(),
+            along: Vec::new(),
             squared: vec![0.0; k],
             reduced_mass: vec![0.0; k * k],
             begin: vec![0; k],
@@ -192,11 +198,15 @@ impl FreeMotions {
         &mut self,
         lu: &TallLu,
         entry: impl Fn(usize, usize) -> f64,
-        mass: &[f64],
+        mass: MassMatrix<'_>,
     ) -> Result<(), SaddleError> {
-        self.mass.copy_from_slice(mass);
+        self.mass.copy_from_slice(mass.diagonal());
         self.basis.solve(lu);
         self.reduce_mass(lu);
+        if !(self.added.is_empty() && mass.added().is_empty()) {
+            self.added.copy(mass.added());
+            self.reduce_added();
+        }
         self.factor_reduced_mass(lu, entry)
     }
 
@@ -230,6 +240,42 @@ impl FreeMotions {
         }
     }
 
+    /// Adds `Σ a·(g·N)ᵀ·(g·N)` to the lower triangle of NᵀMN.
+    fn reduce_added(&mut self) {
+        let Self {
+            basis,
+            k,
+            added,
+            along,
+            reduced_mass,
+            begin,
+            ..
+        } = self;
+        let k = *k;
+        for (inertia, columns, values) in added.rows() {
+            along.clear();
+            along.resize(k, 0.0);
+            for (&i, g) in columns.iter().zip(values) {
+                for entry in basis.of(i) {
+                    along[entry.index()] += g * entry.value;
+                }
+            }
+            let Some(first) = along.iter().position(|x| *x != 0.0) else {
+                continue;
+            };
+            for c in first..k {
+                if along[c] != 0.0 {
+                    begin[c] = begin[c].min(first);
+                    axpy(
+                        inertia * along[c],
+                        &along[first..=c],
+                        &mut reduced_mass[c * k + first..=c * k + c],
+                    );
+                }
+            }
+        }
+    }
+
     /// Computes the Cholesky factorisation of `NᵀMN` without roots, L·D·Lᵀ.
     fn factor_reduced_mass(
         &mut self,
@@ -245,7 +291,8 @@ impl FreeMotions {
         // exact in the free coordinates, and its rounding may change a zero into a mass.
         let cancelled = k as f64 * f64::EPSILON;
         let relative = (n as f64 * f64::EPSILON).powi(2);
-        let heaviest = max_abs(&self.mass);
+        let added = self.added.heaviest();
+        let heaviest = max_abs(&self.mass).max(added);
         for i in 0..k {
             let (above, rest) = self.reduced_mass.split_at_mut(i * k);
             let l_i = &mut rest[..k];
@@ -275,7 +322,7 @@ impl FreeMotions {
                 // The rounding error of a null vector is relative to the entries that its
                 // coordinate has in the rows.
                 let shares = lu.used().iter().map(|&row| entry(row, lu.free[i]));
-                reduced <= floor(dependent.fold(0.0, f64::max), shares.fold(0.0, f64::max))
+                reduced <= floor(dependent.fold(added, f64::max), shares.fold(0.0, f64::max))
             };
             if reduced.is_nan() || is_lost {
                 return Err(SaddleError::MasslessMotion {

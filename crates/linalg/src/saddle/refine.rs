@@ -192,6 +192,13 @@ impl KeptRowSaddle {
         for (coordinate, &m) in self.free.mass.iter().enumerate() {
             force[coordinate] = Dd::from(f[coordinate]) - a.x[coordinate] * m;
         }
+        for (inertia, columns, values) in self.free.added.rows() {
+            let terms = columns.iter().zip(values);
+            let rate = terms.fold(Dd::ZERO, |sum, (&j, g)| sum + a.x[j] * *g);
+            for (&j, g) in columns.iter().zip(values) {
+                force[j] = force[j] - rate * inertia * *g;
+            }
+        }
         refinement.gamma.fill(0.0);
         for &k in self.lu.used() {
             let c_k = row(k);

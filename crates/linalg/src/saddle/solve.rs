@@ -90,9 +90,15 @@ impl KeptRowSaddle {
 
     /// Computes g = f − M·a.
     fn force_left(&mut self, f: &[f64], a: &[f64]) {
-        let mass = &self.free.mass;
+        let (mass, added) = (&self.free.mass, &self.free.added);
         for (((g, f), m), a) in self.g.iter_mut().zip(f).zip(mass).zip(a) {
             *g = f - m * a;
+        }
+        for (k, (inertia, columns, values)) in added.rows().enumerate() {
+            let force = inertia * added.times(k, a);
+            for (&j, g) in columns.iter().zip(values) {
+                self.g[j] -= g * force;
+            }
         }
     }
 }

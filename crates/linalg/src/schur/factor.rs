@@ -4,11 +4,11 @@ use super::front::{add_element, add_update, eliminate};
 use super::tiles::{SIDE, by_width, diagonal, of_columns, squares, triangle};
 use super::{Assembly, LdlFactors, SchurSaddle, SchurStructure};
 use crate::limits::{SCHUR_NOISE, SCHUR_WHOLE};
-use crate::{SaddleError, SparseMatrix};
+use crate::{MassMatrix, SaddleError, SparseMatrix};
 
 impl SchurSaddle {
-    /// Factors `S = C·M⁻¹·Cᵀ`. The rows C have the pattern of the structure, and `mass` is the
-    /// diagonal of M.
+    /// Factors `S = C·M⁻¹·Cᵀ`. The rows C have the pattern of the structure, and `mass` is M,
+    /// with the rows for which the structure was created.
     ///
     /// # Errors
     /// - [`SaddleError::Length`], [`SaddleError::NonFinite`], [`SaddleError::NegativeMass`]: bad
@@ -16,9 +16,13 @@ impl SchurSaddle {
     /// - [`SaddleError::ZeroMass`]: a coordinate has no mass.
     /// - [`SaddleError::RankLost`]: a row depends on other rows to the accuracy of S, because less
     ///   than 1e-7 of the row is independent.
-    pub fn factor(&mut self, c: &SparseMatrix, mass: &[f64]) -> Result<(), SaddleError> {
+    pub fn factor<'m>(
+        &mut self,
+        c: &SparseMatrix,
+        mass: impl Into<MassMatrix<'m>>,
+    ) -> Result<(), SaddleError> {
         self.factor_above(0.0, c, mass)?;
-        let Some(row) = (0..self.structure.n_rows()).find(|&k| !self.uses(k)) else {
+        let Some(row) = (0..self.structure.rows_of_c).find(|&k| !self.uses(k)) else {
             return Ok(());
         };
         self.is_factored = false;
@@ -36,7 +40,16 @@ impl SchurSaddle {
     ///
     /// # Errors
     /// Returns the same errors as [`SchurSaddle::factor`], without [`SaddleError::RankLost`].
-    pub fn factor_above(
+    pub fn factor_above<'m>(
+        &mut self,
+        floor: f64,
+        c: &SparseMatrix,
+        mass: impl Into<MassMatrix<'m>>,
+    ) -> Result<(), SaddleError> {
+        self.factor_extended(floor, c, mass.into())
+    }
+
+    pub(super) fn factor_diagonal(
         &mut self,
         floor: f64,
         c: &SparseMatrix,
@@ -210,6 +223,9 @@ impl SchurSaddle {
         for (usual, (inverse, size)) in usual.as_flattened_mut().iter_mut().zip(pivots) {
             let share = (1.0 / (*inverse * *size)).min(SCHUR_WHOLE.powi(2));
             let usually = share / smallest;
+            if *usual == 0.0 {
+                continue;
+            }
             *usual = if usually.is_finite() {
                 usually.max(1.0)
             } else {

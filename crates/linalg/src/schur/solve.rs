@@ -33,6 +33,9 @@ impl SchurSaddle {
         a: &mut [f64],
         lambda: &mut [f64],
     ) -> Result<(), SaddleError> {
+        if self.solve_extended((f, gamma), a, lambda)? {
+            return Ok(());
+        }
         self.check(
             c,
             [("f", f.len()), ("a", a.len())],
@@ -99,6 +102,9 @@ impl SchurSaddle {
         a: &[f64],
         lambda: &mut [f64],
     ) -> Result<(), SaddleError> {
+        if self.multipliers_extended(f, a, lambda)? {
+            return Ok(());
+        }
         self.check(
             c,
             [("f", f.len()), ("a", a.len())],

@@ -38,6 +38,10 @@ pub struct SchurStructure {
     pub(super) in_parent: Vec<InParent>,
     pub(super) elements: Elements,
     pub(super) size: Size,
+    /// Number of rows of C. The other rows are rows of the mass matrix.
+    pub(super) rows_of_c: usize,
+    /// The pattern of the rows of C and of the mass matrix, if the mass matrix has rows.
+    pub(super) extended: Option<Box<SparseMatrix>>,
 }
 
 /// The rows of C and the order of their elimination. The positions of the pivots of a front begin
@@ -388,6 +392,8 @@ impl Tree {
                 ..Elements::default()
             },
             size: Size::default(),
+            rows_of_c: c.nrows(),
+            extended: None,
         };
         let mut place_of_node = vec![0; n];
         self.order
