@@ -241,6 +241,7 @@ fn a_leaning_row_agrees_to_the_rounding_of_what_it_leans_to() {
         let c = linalg::Matrix::from_rows(&[[1.0, 0.0], [1.0, lean]]);
         Equations {
             mass: vec![1.0, 1.0],
+            added: linalg::AddedMass::default(),
             force: vec![3.0, -9.81],
             terms: RowTerms::of_matrix(&c),
             gamma: vec![0.0, 0.0],

@@ -8,7 +8,20 @@ use tests::robot::{robot, steering};
 
 #[test]
 fn evaluations_and_projections_allocate_nothing() {
-    let mechanism = Mechanism::build(&robot(steering())).expect("the robot builds");
+    allocate_nothing(&robot(steering()));
+    let mut armed = robot(steering());
+    let pin = { armed.joints.iter() }.find(|j| j.element.spec().common.scene_type == "revolute");
+    let (name, bodies) = pin
+        .map(|j| (j.name.clone(), j.bodies.clone()))
+        .expect("a pin");
+    // The angle needs no points.
+    let angle = joints::RevoluteAngleDrive::new([0.0; 2], [0.0; 2]);
+    armed.armature(&name, &bodies, angle, 0.3);
+    allocate_nothing(&armed);
+}
+
+fn allocate_nothing(robot: &model::Description) {
+    let mechanism = Mechanism::build(robot).expect("the robot builds");
     let p = prepare(mechanism, &StartOptions::default(), &RowChoice::Automatic).expect("starts");
     let mut motion = KeptRowMotion::new(&p).expect("moves");
     let (mut q, mut v) = (p.q.clone(), p.v.clone());

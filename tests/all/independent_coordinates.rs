@@ -7,7 +7,10 @@ use dynamics::{
     KeptRowMotion, Method, MotionOptions, PreparedMechanism, ReducedJacobian, RowChoice, prepare,
     simulate,
 };
-use joints::{Bushing, Direction, KnifeEdge, SpringDamper, TorsionSpringDamper};
+use joints::{
+    Bushing, Direction, KnifeEdge, RevoluteAngleDrive, SpringDamper, TorsionSpringDamper,
+    Translational, TranslationalDisplacementDrive,
+};
 use model::{Body, BodyRef, Description, Force, ForceKernels, Joint, Mechanism, StartOptions};
 use tests::cranks::cranks;
 use tests::largest;
@@ -55,9 +58,32 @@ fn sprung_cranks() -> Description {
     d
 }
 
+/// A block that slides on an arm, with armatures of the arm and of the slide. The displacement of
+/// the slide depends on the configuration of both bodies.
+fn armatured_slide() -> Description {
+    let mut d = Description::new("slide");
+    d.gravity = [0.0, -9.81];
+    let [arm, block] = [[0.5, 0.0], [1.2, 0.3]].map(|position| Body {
+        position,
+        ..Body::new(if position[0] < 1.0 { "arm" } else { "block" }, 1.5, 0.2)
+    });
+    let [arm, block] = [d.body(arm), d.body(block)];
+    let [pin, slide] = [[BodyRef::Ground, arm], [arm, block]];
+    let axis = Direction::new([0.6, 0.8]).expect("a direction");
+    let [s_i, s_j] = pin.map(|body| d.local(body, [0.0; 2]));
+    d.joint("pin", &pin, joints::Revolute { s_i, s_j });
+    d.armature("pin", &pin, RevoluteAngleDrive::new(s_i, s_j), 0.7);
+    let [s_i, s_j] = slide.map(|body| d.local(body, [1.0, 0.4]));
+    d.joint("slide", &slide, Translational::new(s_i, s_j, axis));
+    let along = TranslationalDisplacementDrive::new(s_i, s_j, axis);
+    d.armature("slide", &slide, along, 2.5);
+    d
+}
+
 /// The mechanisms, at times at which all bodies move: the robot is steered at 1.5 s.
-fn cases() -> [(&'static str, PreparedMechanism, f64); 2] {
+fn cases() -> [(&'static str, PreparedMechanism, f64); 3] {
     [
+        ("armatures", prepared(&armatured_slide()), 0.4),
         ("cranks", prepared(&sprung_cranks()), 0.4),
         ("robot", prepared(&robot(steering())), 1.5),
     ]
@@ -133,7 +159,7 @@ fn dependent_entries_are_a_guess_only() {
 
 #[test]
 fn shifted_systems_are_solved() {
-    let (_, p, t) = &cases()[0];
+    let (_, p, t) = &cases()[1];
     let y = state_at(p, *t);
     let mut motion = KeptRowMotion::new(p).expect("rows");
     let mut reduced = ReducedJacobian::new(&motion);

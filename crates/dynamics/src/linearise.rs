@@ -24,7 +24,6 @@ mod modes;
 mod reduce;
 
 use linalg::Matrix;
-use model::System;
 
 use crate::error::MotionFault;
 use crate::held::{accelerated, rests};
@@ -148,13 +147,10 @@ fn second_order(x: &Linearisation, curves: &Curves<'_>, bases: &Bases) -> Option
     if !curves.is_at_rest() || x.velocities.len() != n {
         return None;
     }
-    let masses = curves.mechanism().mass();
+    let (_, q, _) = curves.state();
+    let inertia = curves.mechanism().inertia_at(q);
     let mass = Matrix::from_fn(n, n, |i, k| {
-        let terms = masses.iter().zip(bases.shifts.row(i));
-        terms
-            .zip(bases.shifts.row(k))
-            .map(|((m, a), b)| m * a * b)
-            .sum()
+        inertia.between(bases.shifts.row(i), bases.shifts.row(k))
     });
     let of = |first: usize| {
         let block = Matrix::from_fn(n, n, |i, k| -x.a[(n + i, first + k)]);

@@ -287,14 +287,14 @@ impl<'m> KeptRowMotion<'m> {
     /// Panics if `y` or `dy` are shorter than n_q + n_v.
     pub fn derivative(&mut self, t: f64, y: &[f64], dy: &mut [f64]) -> Result<(), MotionFault> {
         self.begin_step(|accepted| t > accepted)?;
-        let mechanism = self.mechanism();
         let (q, v) = self.parts(y);
         let (qd, a, power) = self.parts_mut(dy);
         if let Some(coordinates) = &mut self.manifold.coordinates {
             coordinates.complete(&mut self.equations, t, q, v)?;
             self.watch.passage.see(&self.equations.velocity);
             self.equations.solve_factored(&coordinates.v, a)?;
-            rates(mechanism, (&coordinates.q, &coordinates.v, a), (qd, power));
+            let state = (&coordinates.q[..], &coordinates.v[..], &*a);
+            rates(&self.equations.at, state, (qd, power));
             return Ok(());
         }
         let state = State { t, q, v };
@@ -311,7 +311,7 @@ impl<'m> KeptRowMotion<'m> {
         if !is_evaluated {
             self.interpret(state, a)?;
         }
-        rates(self.mechanism(), (q, v, a), (&mut *qd, power));
+        rates(&self.equations.at, (q, v, a), (&mut *qd, power));
         self.mechanism().state_rates(&self.equations.at.s, qd);
         Ok(())
     }
@@ -333,7 +333,7 @@ impl<'m> KeptRowMotion<'m> {
         let (q, v) = self.parts(y);
         let (qd, a, power) = self.parts_mut(dy);
         self.solve_factored(v, a)?;
-        rates(self.mechanism(), (q, v, a), (&mut *qd, power));
+        rates(&self.equations.at, (q, v, a), (&mut *qd, power));
         self.mechanism().state_rates(&self.equations.at.s, qd);
         Ok(())
     }
@@ -511,12 +511,12 @@ impl<'m> KeptRowMotion<'m> {
 /// Computes q̇. If `rates` has an entry for the power, the function also computes the power of
 /// drives and applied forces at a state with acceleration a.
 fn rates(
-    mechanism: &Mechanism,
+    Evaluation { mechanism, s, .. }: &Evaluation<'_>,
     (q, v, a): (&[f64], &[f64], &[f64]),
     (qd, power): (&mut [f64], Option<&mut f64>),
 ) {
     mechanism.rate(q, v, qd);
     if let Some(power) = power {
-        *power = mechanism.energy_rate(v, a);
+        *power = mechanism.energy_rate(s, v, a);
     }
 }

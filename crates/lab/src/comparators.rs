@@ -82,6 +82,12 @@ pub enum Fault {
     /// The method needs derivatives of the forces, but a force has no derivatives.
     #[error(transparent)]
     Called(#[from] ForceWithoutDerivatives),
+    /// A joint has an armature, but the solvers of the method need a diagonal mass matrix.
+    #[error("joint `{joint}` has an armature, which the reference methods do not support")]
+    Armature {
+        /// Name of the joint.
+        joint: String,
+    },
     /// Newton's method does not converge in an implicit step.
     #[error("the equations of a step cannot be solved")]
     Newton,

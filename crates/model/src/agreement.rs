@@ -234,7 +234,7 @@ impl Data<'_> {
             (ConstraintLevel::Acceleration, None) => return f64::INFINITY,
             (ConstraintLevel::Acceleration, Some(a)) => {
                 let [none, still] = [vec![0.0; z.len()], vec![0.0; a.len()]];
-                let of_rows = self.gradients(s, &none, a, level.v);
+                let of_rows = self.gradients(s, &none, [a, &still], level.v);
                 of_rows.gradient(&still, [z, &none, &none], gradient);
             }
         }

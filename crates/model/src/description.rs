@@ -60,6 +60,8 @@ pub struct MechanismDescription<S: BodySpace> {
     pub start_time: f64,
     /// Controllers, added by [`MechanismDescription::control`].
     pub controllers: Vec<Controller>,
+    /// Inertias of joint coordinates, added by [`MechanismDescription::armature`].
+    pub armatures: Vec<Armature<S>>,
 }
 
 /// A mechanism in the plane before it is assembled; see [`MechanismDescription`].
@@ -99,6 +101,7 @@ impl<S: BodySpace> Default for MechanismDescription<S> {
             observed: Observables::default(),
             start_time: 0.0,
             controllers: Vec::new(),
+            armatures: Vec::new(),
         }
     }
 }
@@ -144,6 +147,38 @@ impl<S: BodySpace> MechanismDescription<S> {
             element: Box::new(element),
             motion,
             tolerance: None,
+        });
+    }
+
+    /// Adds an armature to a joint: the inertia of a rotor that rotates with a joint coordinate s.
+    /// The kinetic energy of the mechanism contains ½·a·ṡ². Gyroscopic terms of the rotor are
+    /// neglected. `element` is the drive of the joint coordinate, and the inertia has the unit
+    /// kg·m² (kg for a length).
+    ///
+    /// ```
+    /// use joints::{Revolute, RevoluteAngleDrive};
+    /// use pfaff_model::{Body, BodyRef, Description, Mechanism};
+    /// // A geared motor: 2e-5 kg·m² at the motor and a ratio of 100 are 0.2 kg·m² at the joint.
+    /// let mut d = Description::new("arm");
+    /// let arm = d.body(Body::new("arm", 1.0, 0.5));
+    /// let (bodies, o) = ([BodyRef::Ground, arm], [0.0, 0.0]);
+    /// d.joint("shoulder", &bodies, Revolute { s_i: o, s_j: o });
+    /// d.armature("shoulder", &bodies, RevoluteAngleDrive::new(o, o), 0.2);
+    /// let mechanism = Mechanism::build(&d).unwrap();
+    /// assert_eq!(mechanism.kinetic_energy(&[0.0; 3], &[0.0, 0.0, 2.0]), 1.4);
+    /// ```
+    pub fn armature(
+        &mut self,
+        joint: &str,
+        bodies: &[BodyRef],
+        element: impl ConstraintKernels<S> + 'static,
+        inertia: f64,
+    ) {
+        self.armatures.push(Armature {
+            joint: joint.to_owned(),
+            bodies: bodies.to_vec(),
+            element: Box::new(element),
+            inertia,
         });
     }
 
@@ -642,6 +677,19 @@ pub struct Drive<S: BodySpace = Plane> {
     /// Tolerance of the points, directions and scalars (m). The tolerance is equal to the tolerance
     /// of the driven joint.
     pub tolerance: Option<f64>,
+}
+
+/// The inertia of a joint coordinate, for example of a geared motor.
+#[derive(Clone)]
+pub struct Armature<S: BodySpace = Plane> {
+    /// Name of the joint.
+    pub joint: String,
+    /// The bodies, in the order of the definition of the joint.
+    pub bodies: Vec<BodyRef>,
+    /// The element that drives the coordinate. The element has the parameters of the joint.
+    pub element: Box<dyn ConstraintKernels<S>>,
+    /// Inertia (kg·m² for an angle, kg for a length).
+    pub inertia: f64,
 }
 
 /// An applied force.

@@ -6,6 +6,7 @@
 //! and read poses of bodies from [`Bodies`]. Elements whose kernels need other data types must be
 //! added in this module.
 
+mod armature;
 mod bodies;
 mod constraint;
 mod extended;
@@ -16,6 +17,7 @@ mod slots;
 mod spaces;
 mod turned;
 
+pub(crate) use armature::{MOST_BODIES, PlacedArmature};
 pub use bodies::Bodies;
 pub(crate) use bodies::{angle_at, axes_at, turned_at};
 pub(crate) use constraint::{FramedConstraint, PlacedConstraint};

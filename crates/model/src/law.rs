@@ -13,7 +13,7 @@ pub(crate) mod program;
 mod tests;
 mod undefined;
 
-pub(crate) use drive::{full, law_drive};
+pub(crate) use drive::{MEASURE_0, full, law_drive};
 pub use error::LawError;
 pub use operation::{Join, LawState, Operation, UnaryFunction};
 pub use undefined::UndefinedValue;

@@ -10,7 +10,7 @@
 //! | Ψ, ψ | `psi` | Pfaffian rows, Ψ·v + ψ = 0 | h × n_v |
 //! | C, b | `c`, `b` | all rows stacked, C = \[Φq; Ψ\], C·v = b = \[−Φt; −ψ\] | (m+h) × n_v |
 //! | Γ | `gamma` | right-hand side of C·v̇ = Γ | m+h |
-//! | M | `mass` | diagonal of the mass matrix | n_v |
+//! | M | `inertia` | mass matrix: the diagonal `mass`, and the rows of armatures | n_v × n_v |
 //! | Q | `force` | applied forces, including gravity | n_v |
 //! | λ | `lambda` | multipliers in M·v̇ + Cᵀ·λ = Q; the reaction of the joint X is −C_Xᵀ·λ_X | m+h |
 //!
@@ -86,8 +86,8 @@ pub use data::{
     Data, DataBlock, DataGradients, DataSlopes, DataUnit, ForceDerivatives, SHARED, explained,
 };
 pub use description::{
-    AnyDescription, Body, BodyRecord, BodyRef, DescribedBody, Description, Drive, Force, FramePose,
-    Joint, MechanismDescription, Motion, SetLawError, SpatialBody, SpatialDescription,
+    AnyDescription, Armature, Body, BodyRecord, BodyRef, DescribedBody, Description, Drive, Force,
+    FramePose, Joint, MechanismDescription, Motion, SetLawError, SpatialBody, SpatialDescription,
 };
 pub use element::{Bodies, BodySpace, ConstraintKernels, ForceKernels};
 pub use extended::PolishedConfiguration;

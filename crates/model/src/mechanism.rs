@@ -1,6 +1,7 @@
 //! The assembled mechanism: a list of elements. Each element has its bodies, its rows and its
 //! entries in the matrices. The build checks for all errors, so a built mechanism is always valid.
 
+mod armature;
 mod build;
 mod build_error;
 mod check;
@@ -26,9 +27,10 @@ use crate::group::ConstraintId;
 use crate::observed::Observables;
 use crate::rounding::are_apart;
 use crate::space::{Space, SpaceKind, in_space};
-use crate::system::Layout;
+use crate::system::{Layout, Scratch};
 use crate::tolerance::Tolerance;
 
+pub use armature::{ArmatureLoad, InertiaAt};
 pub use build::Buildable;
 pub use build_error::BuildError;
 pub use derivatives::{Derivatives, Sparse};
@@ -225,12 +227,17 @@ impl Mechanism {
         space.largest_difference(self.of_bodies(a), self.of_bodies(b), size)
     }
 
-    /// Returns the kinetic energy at velocities v (J).
+    /// Returns the kinetic energy at coordinates q and velocities v (J), including the energy
+    /// ½·a·ṡ² of armatures.
     #[must_use]
-    pub fn kinetic_energy(&self, v: &[f64]) -> f64 {
+    pub fn kinetic_energy(&self, q: &[f64], v: &[f64]) -> f64 {
         let energy = |(m, v): (&f64, &f64)| 0.5 * m * v * v;
         let spins = self.free_spins.iter().map(|&j| (&self.mass[j], &v[j]));
-        self.mass.iter().zip(v).map(energy).sum::<f64>() - spins.map(energy).sum::<f64>()
+        let spins: f64 = spins.map(energy).sum();
+        if self.elements.armatures.is_empty() {
+            return self.mass.iter().zip(v).map(energy).sum::<f64>() - spins;
+        }
+        0.5 * self.inertia_at(q).between(v, v) - spins
     }
 
     /// Returns the principal moments of a body in space (kg·m²). The moment of a free spin is zero.
@@ -258,11 +265,19 @@ impl Mechanism {
     /// Returns the rate of the sum of the kinetic energy and the potential energy of gravity (W),
     /// for velocities v and accelerations a: `vᵀ·(M·a − weight)`. If the constraints are satisfied,
     /// this rate is the power of drives and applied forces, because `M·a − Q = −Cᵀ·λ` and `C·v =
-    /// b`.
+    /// b`. An armature a adds a·ṡ·s̈. If there are armatures, the work space must contain the state:
+    /// [`System::force`] must have been called.
+    ///
+    /// [`System::force`]: crate::System::force
     #[must_use]
-    pub fn energy_rate(&self, v: &[f64], a: &[f64]) -> f64 {
+    pub fn energy_rate(&self, s: &Scratch, v: &[f64], a: &[f64]) -> f64 {
         let terms = self.mass.iter().zip(a).zip(self.weight.iter().zip(v));
-        terms.map(|((m, a), (w, v))| (m * a - w) * v).sum()
+        let bodies = terms.map(|((m, a), (w, v))| (m * a - w) * v).sum();
+        let armatures = self.elements.armatures.iter().enumerate();
+        armatures.fold(bodies, |sum, (k, armature)| {
+            let acceleration = s.added.times(k, a) - s.added_gamma[k];
+            sum + armature.inertia * s.added.times(k, v) * acceleration
+        })
     }
 
     /// Returns the names of the body and of its coordinate that belong to a column of C.

@@ -4,7 +4,7 @@
 
 use std::ops::Range;
 
-use linalg::{Matrix, Scaling};
+use linalg::{AddedMass, MassMatrix, Matrix, Scaling};
 
 use crate::element::{Bodies, Slots};
 use crate::group::{ColumnKind, ConstraintGroup, ConstraintId};
@@ -19,9 +19,16 @@ pub trait System: Sync {
     /// Sizes, patterns and labels.
     fn layout(&self) -> &Layout;
 
-    /// Returns the diagonal of M, n_v values. The entry of a rotation without inertia that
-    /// influences nothing is any positive number, so that the rotation has no angular acceleration.
+    /// Returns the masses and moments of inertia of the bodies, n_v values. They are the diagonal
+    /// of M, without the armatures of joints. Use them as a metric. The equations of motion use
+    /// [`System::inertia`]. The entry of a rotation without inertia that influences nothing is any
+    /// positive number, so that the rotation has no angular acceleration.
     fn mass(&self) -> &[f64];
+
+    /// Returns M at the configuration of the last [`System::c`] or [`System::force`]. M is
+    /// diagonal, except for armatures of joints: `M = diag(mass) + Σ a·gᵀ·g` with ṡ = g·v for the
+    /// joint coordinate s of the armature a.
+    fn inertia<'s>(&'s self, s: &'s Scratch) -> MassMatrix<'s>;
 
     /// Creates storage for one evaluation at a time.
     fn scratch(&self) -> Scratch;
@@ -33,7 +40,7 @@ pub trait System: Sync {
     /// Computes `s.phi`: Φ(q, t), m values.
     fn phi(&self, s: &mut Scratch);
 
-    /// Computes `s.entries`: the entries of C.
+    /// Computes `s.entries`: the entries of C. Also computes the rows of M.
     fn c(&self, s: &mut Scratch);
 
     /// Computes `s.b`: b of C·v = b, m + h values.
@@ -45,7 +52,9 @@ pub trait System: Sync {
     /// Computes `s.gamma`: Γ of C·v̇ = Γ, m + h values.
     fn gamma(&self, s: &mut Scratch);
 
-    /// Computes `s.force`: Q, n_v values.
+    /// Computes `s.force`: Q, n_v values. Q contains the terms of the inertia that are quadratic in
+    /// v: `−ω × J·ω` of bodies in space, and `gᵀ·a·γ` of armatures with s̈ = g·v̇ − γ. Also computes
+    /// the rows of M.
     fn force(&self, s: &mut Scratch);
 
     /// Computes q̇ = T(q)·v. The rates of states of force laws are zero here: they do not depend on
@@ -320,4 +329,8 @@ pub struct Scratch {
     pub(crate) block: Vec<f64>,
     /// Values of the rows of one constraint.
     pub(crate) own_rows: Vec<f64>,
+    /// The rows g of M, one for each armature.
+    pub(crate) added: AddedMass,
+    /// γ of each armature, with s̈ = g·v̇ − γ.
+    pub(crate) added_gamma: Vec<f64>,
 }

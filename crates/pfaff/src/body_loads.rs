@@ -17,7 +17,8 @@ use crate::tables_of_run::{TableRows, finished};
 /// Name of the tables in messages.
 const NAME: &str = "body_*.csv";
 
-/// Owners of the loads that do not belong to a joint, drive or force element.
+/// Owners of the loads that do not belong to a joint, drive or force element. Loads of armatures
+/// have the names of their joint coordinates.
 const OF_MASS: [&str; 2] = ["gravity", "inertia"];
 
 /// Writer of the loads on one body. If some joints may not be determined, all rows are first
@@ -64,6 +65,9 @@ impl<'m> BodyLoads<'m> {
         let forces = forces.filter(|force| force.bodies.contains(&own));
         let names = joints.iter().map(|id| layout.groups[id.0].name.as_str());
         let names: Vec<&str> = names.chain(forces.map(|force| force.name)).collect();
+        let armatures = mechanism.armatures();
+        let armatures = armatures.filter(|armature| armature.bodies.contains(&own));
+        let armatures: Vec<String> = armatures.map(|armature| armature.to_string()).collect();
         if let Some(name) = names.iter().find(|name| OF_MASS.contains(name)) {
             return Err(StudyError::LoadName {
                 body: mechanism.bodies()[body].name.clone(),
@@ -78,7 +82,9 @@ impl<'m> BodyLoads<'m> {
             };
             space.components().iter().map(column).collect::<Vec<_>>()
         };
-        let columns: Vec<(String, &str)> = names.into_iter().chain(OF_MASS).flat_map(of).collect();
+        let names = names.into_iter().chain(OF_MASS);
+        let names = names.chain(armatures.iter().map(String::as_str));
+        let columns: Vec<(String, &str)> = names.flat_map(of).collect();
         let bodies = mechanism.bodies().iter().map(|body| body.name.as_str());
         let stem = file_stems(bodies).swap_remove(body);
         let out = if is_plain {
@@ -135,6 +141,7 @@ impl<'m> BodyLoads<'m> {
         let forces = self.loads.on_body(body).map(|(_, load)| load);
         let all = joints.into_iter().chain(forces);
         let all = all.chain(self.loads.of_mass(body, &a));
+        let all = all.chain(self.loads.of_armatures(body, &a).map(|(_, load)| load));
         let axes = reactions.frame_axes(BodyRef::Body(body));
         Ok(all.map(|wrench| wrench.along(axes)).collect())
     }

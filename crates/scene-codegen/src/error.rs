@@ -49,6 +49,14 @@ pub enum CodeError {
         /// Name of the joint, drive or force.
         element: String,
     },
+    /// A joint has an armature, so the mass matrix depends on the configuration.
+    #[error(
+        "joint `{joint}` has an armature, which generated code does not support; run this scene interpreted"
+    )]
+    Armature {
+        /// Name of the joint.
+        joint: String,
+    },
     /// A force uses a callback, which cannot be recorded.
     #[error("{0}, which generated code does not support; run this scene interpreted")]
     Called(ForceWithoutDerivatives),

@@ -353,6 +353,10 @@ pub(crate) fn recordable(mechanism: &Mechanism) -> Result<(), CodeError> {
         let element = element.to_owned();
         return Err(CodeError::Expression { element });
     }
+    if let Some(armature) = mechanism.armatures().next() {
+        let joint = armature.joint.to_owned();
+        return Err(CodeError::Armature { joint });
+    }
     match mechanism.applied_forces().law_drives().next() {
         Some((drive, _)) => Err(CodeError::Law {
             drive: drive.to_owned(),

@@ -210,6 +210,7 @@ fn document<S: SceneBody>(mut root: Table, registry: &Registry) -> Scene {
         forces,
         start_time,
         controllers: Vec::new(),
+        armatures: Vec::new(),
     });
     let source = SourceMap {
         silenced: Vec::new(),

@@ -13,6 +13,7 @@
 //! equations of second order contain further terms. The result for such bodies is undecided if a
 //! freedom is restricted.
 
+use model::mechanism::InertiaAt;
 use model::{ConstraintId, Mechanism, System};
 use rank::RankDecision;
 
@@ -60,6 +61,7 @@ struct Instant<'a> {
     v: &'a [f64],
     units: Vec<f64>,
     acceleration: Vec<f64>,
+    inertia: InertiaAt<'a>,
     /// Generalised forces of each load, n_v values.
     loads: Vec<(String, Vec<f64>)>,
 }
@@ -82,6 +84,7 @@ impl<'a> Instant<'a> {
             v,
             units: velocity_units(mechanism, model::start::scene_size(mechanism, q)),
             acceleration,
+            inertia: mechanism.inertia_at(q),
             loads,
         }
     }
@@ -149,18 +152,18 @@ impl<'a> Instant<'a> {
     /// Returns whether the component of the acceleration along the restricted velocities, w,
     /// exceeds the rounding of the loads: `wᵀ·M·w = wᵀ·(Q − M·(a − w))`.
     fn pushes(&self, w: &[f64]) -> bool {
-        let mass = self.mechanism.mass();
-        let own: f64 = (0..w.len()).map(|j| mass[j] * w[j] * w[j]).sum();
+        let own = self.inertia.between(w, w);
         own > PUSHES * (self.load_terms(w) + self.inertia_terms(w)) + self.rounding(w)
     }
 
     /// Returns the largest power along w that is rounding of loads of this size. If w itself is
     /// rounding, the terms of the power are rounding, too.
     fn rounding(&self, w: &[f64]) -> f64 {
-        let mass = self.mechanism.mass();
+        let mut inertia = vec![0.0; w.len()];
+        self.inertia.add_sizes(&self.acceleration, &mut inertia);
         let of_column = |j: usize| {
             let loads = self.loads.iter().map(|(_, force)| force[j].abs());
-            let all: f64 = loads.sum::<f64>() + (mass[j] * self.acceleration[j]).abs();
+            let all: f64 = loads.sum::<f64>() + inertia[j];
             all * self.units[j]
         };
         let load = (0..w.len()).map(of_column).fold(0.0, f64::max);
@@ -173,10 +176,11 @@ impl<'a> Instant<'a> {
     }
 
     fn inertia_terms(&self, w: &[f64]) -> f64 {
-        let (mass, a) = (self.mechanism.mass(), &self.acceleration);
-        (0..w.len())
-            .map(|j| (mass[j] * (a[j] - w[j]) * w[j]).abs())
-            .sum()
+        let left = self.acceleration.iter().zip(w).map(|(a, w)| a - w);
+        let mut inertia = vec![0.0; w.len()];
+        self.inertia
+            .add_sizes(&left.collect::<Vec<f64>>(), &mut inertia);
+        terms(&inertia, w)
     }
 
     /// Returns the loads with a power along one of these velocities.

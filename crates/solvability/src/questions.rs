@@ -94,6 +94,10 @@ impl<'a> Questions<'a> {
         self.mechanism
     }
 
+    pub(crate) fn q(&self) -> &[f64] {
+        &self.q
+    }
+
     pub(crate) fn parts(&self) -> &[PartAnalysis] {
         &self.analysis.parts
     }

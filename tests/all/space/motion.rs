@@ -51,7 +51,7 @@ fn moved(
     let (mut energies, mut kinetic) = (Vec::new(), 0.0_f64);
     run(d, &options(t_end, method, rtol), |prepared, row| {
         let m = &prepared.mechanism;
-        let own = m.kinetic_energy(row.v);
+        let own = m.kinetic_energy(row.q, row.v);
         energies.push(own + m.potential_energy(row.q));
         kinetic = kinetic.max(own);
         last = (row.q.to_vec(), row.v.to_vec());

@@ -156,6 +156,9 @@ pub enum NoCode {
         "a force calls a function or has a law with a state, which generated code does not contain"
     )]
     Called,
+    /// A joint has an armature, so the mass matrix depends on the configuration.
+    #[error("a joint has an armature, which generated code does not support")]
+    Armature,
     /// Rows may be redundant only within a stated tolerance, and their constraint violation is a
     /// result of the run.
     #[error(
@@ -320,6 +323,9 @@ impl PreparedMechanism {
             .is_some()
         {
             return Err(NoCode::Called);
+        }
+        if self.mechanism.has_armatures() {
+            return Err(NoCode::Armature);
         }
         if self.may_miss {
             return Err(NoCode::Misfits);

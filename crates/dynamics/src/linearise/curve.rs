@@ -74,10 +74,11 @@ impl<'m> Curves<'m> {
         mechanism.twist(v, &mut s);
         mechanism.force(&mut s);
         let all = [mechanism.weight().to_vec(), s.force.clone()];
+        let mass = mechanism.inertia(&s).full_diagonal();
         let parts = mechanism.applied_forces().parts(&mut s);
         let pushed = |force: Vec<f64>| {
-            let free = (0..v.len()).filter(|&j| mechanism.mass()[j] > 0.0);
-            let each = free.map(|j| force[j].abs() / mechanism.mass()[j] / space.unit(j, size));
+            let free = (0..v.len()).filter(|&j| mass[j] > 0.0);
+            let each = free.map(|j| force[j].abs() / mass[j] / space.unit(j, size));
             each.fold(0.0, f64::max)
         };
         let applied = largest(&mut all.into_iter().chain(parts.map(|(_, q)| q)).map(pushed));
@@ -248,9 +249,10 @@ impl<'m> Curves<'m> {
         let [_, kept] = self.kept();
         let n = self.v.len();
         let mut a = vec![0.0; n];
+        let inertia = self.mechanism().inertia_at(&self.q);
         let mut saddle = KeptRowSaddle::new(n, kept.len()).map_err(|_| LineariseError::Singular)?;
         saddle
-            .factor(|k| self.c.row(kept[k]), self.mechanism().mass())
+            .factor(|k| self.c.row(kept[k]), inertia.matrix())
             .and_then(|()| saddle.motion(q, gamma, &mut a))
             .map_err(|_| LineariseError::Singular)?;
         let none = vec![0.0; self.frames.nrows()];

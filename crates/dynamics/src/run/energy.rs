@@ -18,7 +18,7 @@ pub(super) struct EnergyBalance {
 impl EnergyBalance {
     /// Stores the energy at the start of a run.
     pub(super) fn new(mechanism: &Mechanism, q: &[f64], v: &[f64]) -> Self {
-        let kinetic = mechanism.kinetic_energy(v);
+        let kinetic = mechanism.kinetic_energy(q, v);
         Self {
             start: kinetic + mechanism.potential_energy(q),
             largest_kinetic: kinetic,
@@ -29,7 +29,7 @@ impl EnergyBalance {
 
     /// Adds a state on the constraint manifold and the work up to it (J).
     pub(super) fn note(&mut self, mechanism: &Mechanism, q: &[f64], v: &[f64], work: f64) {
-        let kinetic = mechanism.kinetic_energy(v);
+        let kinetic = mechanism.kinetic_energy(q, v);
         let gap = kinetic + mechanism.potential_energy(q) - self.start - work;
         self.largest_kinetic = larger(self.largest_kinetic, kinetic);
         self.largest_gap = larger(self.largest_gap, gap.abs());

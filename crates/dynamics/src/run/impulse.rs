@@ -58,7 +58,7 @@ pub(super) fn cross_break(
         return Ok(None);
     };
     let jump = -rate[row];
-    let kinetic = mechanism.kinetic_energy(v);
+    let kinetic = mechanism.kinetic_energy(q, v);
     let v_before = v.to_vec();
     let KeptRowMotion {
         equations,
@@ -75,7 +75,7 @@ pub(super) fn cross_break(
     if let Some(code) = code {
         code.restart(equations, watch, t);
     }
-    let energy = mechanism.kinetic_energy(v) - kinetic;
+    let energy = mechanism.kinetic_energy(q, v) - kinetic;
     let label = &layout.labels[row];
     let text = format!(
         "the rate of row {label} jumps by {jump:.6e}: an impulse changes the velocities instantly, and the kinetic energy by {energy:.6e} J. Reactions are infinite for this instant and not written."

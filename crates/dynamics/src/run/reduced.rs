@@ -110,6 +110,8 @@ struct EvaluationStorage {
     rows: Vec<f64>,
     lambda: Vec<f64>,
     dy: Vec<f64>,
+    /// Loads of armatures, n_v values.
+    armatures: Vec<f64>,
 }
 
 impl ReducedCoordinates {
@@ -159,6 +161,7 @@ impl ReducedJacobian {
                 rows: vec![0.0; layout.rows()],
                 lambda: vec![0.0; layout.rows()],
                 dy: vec![0.0; layout.n_q + layout.n_v],
+                armatures: vec![0.0; layout.n_v],
             },
         }
     }
@@ -327,6 +330,7 @@ impl ReducedJacobian {
             force,
             rows,
             dy,
+            armatures,
             ..
         } = &mut self.storage;
         dq.fill(0.0);
@@ -352,6 +356,17 @@ impl ReducedJacobian {
         d.force_dq.add_product(dq, force);
         d.reaction_dq.subtract_product(dq, force);
         d.force_dv.add_product(dv, force);
+        // The power of an armature also changes with its load at fixed accelerations.
+        let mut power = 0.0;
+        if mechanism.has_armatures() {
+            armatures.fill(0.0);
+            d.armature_dq.add_product(dq, armatures);
+            d.armature_dv.add_product(dv, armatures);
+            for ((force, load), v) in force.iter_mut().zip(&*armatures).zip(&coordinates.v) {
+                *force += load;
+                power -= load * v;
+            }
+        }
         rows.fill(0.0);
         d.residual_dq.subtract_product(dq, rows);
         d.gamma_dv.add_product(dv, rows);
@@ -363,9 +378,8 @@ impl ReducedJacobian {
         if let Some(d_work) = d_work.first_mut() {
             // Derivative of the power (M·a − weight)·v with respect to v and to a.
             let a = &dy[layout.n_q..layout.n_q + layout.n_v];
-            let inertia = mechanism.mass().iter().zip(&*da).zip(&coordinates.v);
-            *d_work =
-                mechanism.energy_rate(dv, a) + inertia.map(|((m, da), v)| m * da * v).sum::<f64>();
+            let inertia = mechanism.inertia(&at.s).between(da, &coordinates.v);
+            *d_work = mechanism.energy_rate(&at.s, dv, a) + inertia + power;
         }
         Ok(())
     }

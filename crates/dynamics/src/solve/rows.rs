@@ -77,7 +77,7 @@ impl KeptRows {
                 source,
             })?,
             of_c,
-            scaled: ScaledVectors::new(units, mass),
+            scaled: ScaledVectors::new(units, mass, at.mechanism.inertia(&at.s).added().clone()),
             is_far: is_far(at.size),
             reference_pivot: None,
             partition: None,
@@ -115,7 +115,7 @@ impl KeptRows {
             Some(partition) => partition.0 = pivot,
             None => {
                 self.reference_pivot = pivot;
-                self.solver.keep_shares(&self.scaled.mass);
+                self.solver.keep_shares(self.scaled.inertia());
             }
         }
         Ok(())
@@ -130,9 +130,9 @@ impl KeptRows {
     ) -> Result<(), MotionFault> {
         let reference = self.reference().filter(|r| r.is_finite());
         let floor = share * reference.unwrap_or(0.0);
-        let factored = self
-            .solver
-            .factor_above(floor, &at.s.entries, &self.scaled.mass);
+        self.scaled.take_added(at.mechanism.inertia(&at.s).added());
+        let mass = self.scaled.inertia();
+        let factored = self.solver.factor_above(floor, &at.s.entries, mass);
         factored.map_err(|e| self.fault(at, e))
     }
 
@@ -280,8 +280,10 @@ impl KeptRows {
         at: &Evaluation<'_>,
         change: &[f64],
     ) -> Result<Vec<f64>, MotionFault> {
-        let momenta = change.iter().zip(at.mechanism.mass());
-        let momenta: Vec<f64> = momenta.map(|(v, m)| -m * v).collect();
+        let mut momenta = at.mechanism.inertia(&at.s).product(change);
+        momenta
+            .iter_mut()
+            .for_each(|momentum| *momentum = -*momentum);
         self.scaled.take_force(&momenta);
         self.scaled.motion.fill(0.0);
         self.solve_for_multipliers()

@@ -9,8 +9,8 @@
 //! at instants at which many rows of a large mechanism with few free motions are skipped.
 
 use linalg::{
-    GRADED_MASSES, KeptRowSaddle, Refinement, SaddleError, SchurSaddle, SchurStructure,
-    SparseMatrix,
+    AddedMass, GRADED_MASSES, KeptRowSaddle, MassMatrix, Refinement, SaddleError, SchurSaddle,
+    SchurStructure, SparseMatrix,
 };
 use model::{Mechanism, System};
 
@@ -52,6 +52,7 @@ struct Many {
     is_used: bool,
     floor: f64,
     mass: Vec<f64>,
+    added: AddedMass,
 }
 
 /// Returns a value from the null-space solver if this solver made the last factorisation, and
@@ -113,7 +114,8 @@ pub(crate) fn memory(mechanism: &Mechanism, size: f64, levels: [&[usize]; 2]) ->
 fn structure(mechanism: &Mechanism, c: &SparseMatrix) -> SchurStructure {
     let bodies = 0..mechanism.bodies().len();
     let blocks: Vec<_> = bodies.map(|b| mechanism.layout().columns(b)).collect();
-    SchurStructure::new(c, &blocks)
+    let s = mechanism.scratch();
+    SchurStructure::with_added(c, &blocks, mechanism.inertia(&s).added())
 }
 
 impl Solver {
@@ -144,6 +146,7 @@ impl Solver {
                 is_used: false,
                 floor: 0.0,
                 mass: Vec::new(),
+                added: AddedMass::default(),
             })
         });
         let factors = Factors::NullSpace(Box::new(NullSpace {
@@ -161,7 +164,7 @@ impl Solver {
         &mut self,
         floor: f64,
         entries: &[f64],
-        mass: &[f64],
+        mass: MassMatrix<'_>,
     ) -> Result<(), SaddleError> {
         self.rows.take(entries);
         let c = &self.rows.c;
@@ -268,7 +271,7 @@ impl Solver {
     }
 
     /// Stores the pivots of this factorisation as the reference for the following factorisations.
-    pub(super) fn keep_shares(&mut self, mass: &[f64]) {
+    pub(super) fn keep_shares(&mut self, mass: MassMatrix<'_>) {
         match &mut self.factors {
             Factors::Schur(it) => it.keep_shares(),
             Factors::NullSpace(it) => it.keep_shares(&self.rows.c, mass),
@@ -321,7 +324,7 @@ impl NullSpace {
         &mut self,
         floor: f64,
         c: &SparseMatrix,
-        mass: &[f64],
+        mass: MassMatrix<'_>,
     ) -> Result<(), SaddleError> {
         let Some(many) = self.many.as_mut().filter(|many| many.share > 0.0) else {
             return self.saddle.factor_above(floor, |k| c.row(k).1, mass);
@@ -334,7 +337,8 @@ impl NullSpace {
             Err(SaddleError::ManyFree { .. }) => {
                 (many.is_used, many.floor) = (true, floor);
                 many.mass.clear();
-                many.mass.extend_from_slice(mass);
+                many.mass.extend_from_slice(mass.diagonal());
+                many.added.clone_from(mass.added());
                 many.saddle.factor_above(floor * many.share, c, mass)
             }
             factored => factored,
@@ -346,7 +350,7 @@ impl NullSpace {
     fn factored(&mut self, c: &SparseMatrix) -> Result<&mut KeptRowSaddle, SaddleError> {
         if let Some(many) = self.many.as_mut().filter(|many| many.is_used) {
             many.is_used = false;
-            let (floor, mass) = (many.floor, &many.mass);
+            let (floor, mass) = (many.floor, MassMatrix::new(&many.mass, &many.added));
             self.saddle.factor_above(floor, |k| c.row(k).1, mass)?;
         }
         Ok(&mut self.saddle)
@@ -354,7 +358,7 @@ impl NullSpace {
 
     /// Also factors the rows of the last factorisation by the Schur complement. The pivots of the
     /// Schur complement can then be compared with the pivots of the null-space solver.
-    fn keep_shares(&mut self, c: &SparseMatrix, mass: &[f64]) {
+    fn keep_shares(&mut self, c: &SparseMatrix, mass: MassMatrix<'_>) {
         let Some(many) = &mut self.many else { return };
         let usual = self.saddle.pivot_ratio();
         let factored = many.saddle.factor_above(0.0, c, mass);

@@ -2,6 +2,7 @@
 //! two so that scaling causes no rounding error. The module also computes the sizes and masses that
 //! decide whether solutions are refined.
 
+use linalg::{AddedMass, MassMatrix};
 use model::{Mechanism, System};
 
 use crate::limits::FAR_FROM_A_METRE;
@@ -12,19 +13,32 @@ pub(super) struct ScaledVectors {
     /// Units of the coordinates.
     pub(super) units: Vec<f64>,
     pub(super) mass: Vec<f64>,
+    /// The rows of M.
+    pub(super) added: AddedMass,
     pub(super) force: Vec<f64>,
     pub(super) motion: Vec<f64>,
 }
 
 impl ScaledVectors {
-    /// Creates a zero force and a zero motion, with these units and masses.
-    pub(super) fn new(units: Vec<f64>, mass: Vec<f64>) -> Self {
+    /// Creates a zero force and a zero motion, with these units and masses, and rows of M.
+    pub(super) fn new(units: Vec<f64>, mass: Vec<f64>, added: AddedMass) -> Self {
         Self {
+            added,
             force: vec![0.0; units.len()],
             motion: vec![0.0; units.len()],
             units,
             mass,
         }
+    }
+
+    /// Copies the values of the rows of M.
+    pub(super) fn take_added(&mut self, added: &AddedMass) {
+        self.added.take(added, &self.units);
+    }
+
+    /// Returns M.
+    pub(super) fn inertia(&self) -> MassMatrix<'_> {
+        MassMatrix::new(&self.mass, &self.added)
     }
 
     /// Copies a force in SI units.
@@ -132,5 +146,14 @@ pub(crate) fn is_far(size: f64) -> bool {
 /// bodies. This ratio decides whether solutions are refined.
 pub(crate) fn mass_spread(mechanism: &Mechanism, size: f64) -> f64 {
     let units = units_of_bodies(mechanism, size);
-    linalg::mass_spread(&mass_in_units(mechanism, &units))
+    let mut mass = mass_in_units(mechanism, &units);
+    // An armature is compared with the inertias, or with the masses, of the bodies of its joint.
+    for armature in mechanism.armatures() {
+        for body in armature.bodies.iter().filter_map(|body| body.moving()) {
+            let columns = mechanism.layout().columns(body);
+            let own = columns.filter(|j| mechanism.space().is_rotation(*j) == armature.is_angle);
+            mass.extend(own.map(|j| units[j] * armature.inertia * units[j]));
+        }
+    }
+    linalg::mass_spread(&mass)
 }

@@ -95,6 +95,10 @@ impl<'a> Equations<'a> {
         solver: impl FnOnce(&Matrix, &[f64]) -> Result<Box<dyn Solver + 'a>, Fault>,
     ) -> Result<Self, Fault> {
         let mechanism = &prepared.mechanism;
+        if let Some(armature) = mechanism.armatures().next() {
+            let joint = armature.joint.to_owned();
+            return Err(Fault::Armature { joint });
+        }
         let layout = mechanism.layout();
         let exponents = mechanism
             .layout()

@@ -135,6 +135,13 @@ impl<'a> GeneralizedAlpha<'a> {
         for (i, m) in mechanism.mass().iter().enumerate() {
             self.matrix[(i, i)] = *m;
         }
+        for (inertia, columns, values) in mechanism.inertia(&self.s).added().rows() {
+            for (&i, a) in columns.iter().zip(values) {
+                for (&j, b) in columns.iter().zip(values) {
+                    self.matrix[(i, j)] += inertia * a * b;
+                }
+            }
+        }
         for (k, &i) in self.kept.iter().enumerate() {
             for (column, c) in layout.row(&self.s, i) {
                 self.matrix[(n + k, column)] += c;
@@ -145,6 +152,8 @@ impl<'a> GeneralizedAlpha<'a> {
         let parts = [
             (&d.force_dv, -c_v),
             (&d.force_dq, -c_q),
+            (&d.armature_dv, -c_v),
+            (&d.armature_dq, -c_q),
             (&d.reaction_dq, c_q),
         ];
         for (part, weight) in parts {
@@ -168,8 +177,9 @@ impl<'a> GeneralizedAlpha<'a> {
         mechanism.b(&mut self.s);
         mechanism.twist(v, &mut self.s);
         mechanism.force(&mut self.s);
-        for (i, m) in mechanism.mass().iter().enumerate() {
-            self.x[i] = self.s.force[i] - m * self.to.vd[i];
+        let inertia = mechanism.inertia(&self.s).product(&self.to.vd);
+        for (i, inertia) in inertia.into_iter().enumerate() {
+            self.x[i] = self.s.force[i] - inertia;
         }
         for (k, (&i, l)) in self.kept.iter().zip(&self.to.lambda).enumerate() {
             for (column, c) in layout.row(&self.s, i) {

@@ -4,6 +4,7 @@
 use super::{Across, Data, DataBlock};
 use crate::mechanism::Mechanism;
 use crate::space::norm;
+use crate::system::System;
 
 impl DataBlock {
     /// Returns the number of independent directions in which the datum may change, for example two
@@ -118,12 +119,16 @@ impl Mechanism {
         let mut changed = self.clone();
         let elements = &mut changed.elements;
         let mut first = 0;
-        for c in &mut elements.constraints {
+        for (c, group) in elements.constraints.iter_mut().zip(&self.layout().groups) {
             let own = first..first + c.spec().n_data();
             first = own.end;
-            c.set_data(&numbers[own]);
+            c.set_data(&numbers[own.clone()]);
             let entries = c.entries.clone();
             c.kernels().c_constant(&mut elements.entries[entries]);
+            let armatures = elements.armatures.iter_mut();
+            for armature in armatures.filter(|a| a.joint == group.name) {
+                armature.share(c.spec(), &numbers[own.clone()]);
+            }
         }
         changed
     }

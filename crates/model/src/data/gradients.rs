@@ -2,6 +2,8 @@
 //! are evaluated only once.
 //!
 //! The expression `λᵀ·C·y + y_λᵀ·(C·a − Γ) + w_vᵀ·C·v + w_qᵀ·Φ` is linear in y, y_λ, w_v and w_q.
+//! For a joint with an armature, the expression also contains yᵀ·gᵀ·a·g·v̇, the inertia of the
+//! armature.
 //! Therefore its gradient with respect to the values of one constraint is a small matrix times the
 //! entries of y, y_λ, w_v and w_q for this constraint.
 
@@ -9,7 +11,7 @@ use std::ops::Range;
 
 use super::Data;
 use crate::rows::RowRanges;
-use crate::system::Scratch;
+use crate::system::{Scratch, System};
 
 /// Gradients of `λᵀ·C·y + y_λᵀ·(C·a − Γ) + w_vᵀ·C·v + w_qᵀ·Φ` with respect to all values stored by
 /// the constraints, for any y, y_λ, w_v and w_q.
@@ -33,16 +35,28 @@ struct OfConstraint {
 
 impl Data<'_> {
     /// Returns the gradients at the configuration and the velocities in the work space, for
-    /// multipliers (m + h), accelerations a and velocities v (n_v). The function allocates memory.
+    /// multipliers (m + h), accelerations a and velocities v (n_v). `of_armatures` are the
+    /// accelerations of the armatures (n_v): zeros if their inertia is not part of the equations.
+    /// The function allocates memory.
     #[must_use]
-    pub fn gradients(self, s: &Scratch, lambda: &[f64], a: &[f64], v: &[f64]) -> DataGradients {
+    pub fn gradients(
+        self,
+        s: &Scratch,
+        lambda: &[f64],
+        [a, of_armatures]: [&[f64]; 2],
+        v: &[f64],
+    ) -> DataGradients {
         let space = self.0.space();
         let moves = v.iter().any(|v| *v != 0.0);
         let (mut each, mut values) = (Vec::new(), Vec::new());
-        for (c, numbers) in self.numbered() {
+        for ((c, numbers), group) in self.numbered().zip(&self.0.layout().groups) {
             if numbers.is_empty() {
                 continue;
             }
+            let armatures = || {
+                let armatures = self.0.elements.armatures.iter();
+                armatures.filter(|armature| armature.joint == group.name)
+            };
             let mut column = |fill: &mut dyn FnMut(&mut [f64])| {
                 let place = values.len();
                 values.resize(place + numbers.len(), 0.0);
@@ -51,8 +65,11 @@ impl Data<'_> {
             let (mut storage, mut bodies) = (Vec::new(), Vec::new());
             let own = c.rows.of(lambda, &mut storage);
             let slopes = c.slopes(&s.slots);
-            let [mut unit, mut own_a, mut own_v] = [const { Vec::new() }; 3];
+            let [mut unit, mut own_a, mut inertial, mut own_v] = [const { Vec::new() }; 4];
             unit.resize(space.n_v() * c.site.bodies.len(), 0.0);
+            c.site.own_rates(a, &mut own_a);
+            c.site.own_rates(of_armatures, &mut inertial);
+            c.site.own_rates(v, &mut own_v);
             for (k, body) in c.site.bodies.iter().enumerate() {
                 let Some(body) = body.moving() else {
                     continue;
@@ -61,12 +78,15 @@ impl Data<'_> {
                 for dof in 0..space.n_v() {
                     let at = space.n_v() * k + dof;
                     unit[at] = 1.0;
-                    column(&mut |out| slopes.power(own, &unit, out));
+                    column(&mut |out| {
+                        slopes.power(own, &unit, out);
+                        for armature in armatures() {
+                            armature.add_slopes(&s.slots, c.spec(), [&unit, &inertial], out);
+                        }
+                    });
                     unit[at] = 0.0;
                 }
             }
-            c.site.own_rates(a, &mut own_a);
-            c.site.own_rates(v, &mut own_v);
             let holonomic = c.rows.holonomic.len();
             let mut unit = vec![0.0; c.rows.len()];
             for i in 0..unit.len() {

@@ -30,6 +30,10 @@ impl FramedConstraint {
     pub(crate) fn kernels(&self) -> &AnyConstraint {
         &self.element
     }
+
+    pub(crate) fn kernels_mut(&mut self) -> &mut AnyConstraint {
+        &mut self.element
+    }
 }
 
 /// A constraint with its indices in the mechanism. The kernels need the poses of the bodies, and

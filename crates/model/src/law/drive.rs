@@ -78,7 +78,7 @@ where
 
 /// Name of the datum with the initial value of a joint coordinate, if the drive has a separate row
 /// for the coordinate.
-const OF_ROW: &str = "measure_0";
+pub(crate) const MEASURE_0: &str = "measure_0";
 
 impl<S: Kinematics> Definition<S> for LawDrive<S> {
     fn initialise(&mut self, x: &[PoseOf<S>]) {
@@ -97,11 +97,11 @@ impl<S: Kinematics> Definition<S> for LawDrive<S> {
             self.drive.data(&mut numbers);
             let mut data = spec.data.iter().rev();
             let measure = spec.common.scene_type;
-            self.measured = match data.find(|d| d.name == OF_ROW || d.name == measure) {
-                Some(datum) if datum.name == OF_ROW && self.law.since_start => {
+            self.measured = match data.find(|d| d.name == MEASURE_0 || d.name == measure) {
+                Some(datum) if datum.name == MEASURE_0 && self.law.since_start => {
                     MeasureReading::ByRow
                 }
-                Some(datum) if datum.name == OF_ROW => {
+                Some(datum) if datum.name == MEASURE_0 => {
                     // If this value is zero, the row of the drive is the joint coordinate itself.
                     numbers[datum.first] = 0.0;
                     self.drive.set_data(&numbers);

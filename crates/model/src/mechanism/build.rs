@@ -14,7 +14,8 @@ use crate::body::{BodyRecord, BodyRef, DescribedBody};
 use crate::contact::ContactLimits;
 use crate::description::{AnyDescription, MechanismDescription};
 use crate::element::{
-    AnyForce, BodySpace, FramedConstraint, PlacedConstraint, PlacedForce, Site, TurnedSlots,
+    AnyForce, BodySpace, FramedConstraint, PlacedArmature, PlacedConstraint, PlacedForce, Site,
+    TurnedSlots,
 };
 use crate::function::Function;
 use crate::group::{ConstraintGroup, ConstraintId, ConstraintKind};
@@ -69,6 +70,12 @@ impl<S: BodySpace> Buildable for MechanismDescription<S> {
             let turned = TurnedSlots::new(turn::principal(&bodies, &f.bodies));
             let kernels = S::any_force(f.element.clone());
             b.force(&f.name, &f.bodies, (kernels, turned), &f.functions);
+        }
+        for armature in &self.armatures {
+            let element = S::any_constraint(armature.element.clone());
+            let element = turn::constraint(element, &bodies, &armature.bodies);
+            let inertia = armature.inertia;
+            b.armature(&armature.joint, &armature.bodies, element, inertia);
         }
         let (space, gravity) = (S::KIND, S::point(self.gravity));
         let weight = bodies.iter().flat_map(|b| {
@@ -252,6 +259,23 @@ impl Builder {
         placed.signals = signals;
         self.elements.block = self.elements.block.max(placed.columns.len());
         self.elements.forces.push(placed);
+    }
+
+    /// Adds the inertia of a joint coordinate, unless the inertia is zero.
+    pub(super) fn armature(
+        &mut self,
+        joint: &str,
+        bodies: &[BodyRef],
+        framed: FramedConstraint,
+        inertia: f64,
+    ) {
+        if inertia == 0.0 {
+            return;
+        }
+        let site = self.site(bodies, &[], |_| 0.0, false);
+        let measure = framed.kernels().spec().common.scene_type;
+        let placed = PlacedArmature::new((joint, measure), inertia, framed, site);
+        self.elements.armatures.push(placed);
     }
 
     /// Numbers the rows of all constraints and adds their labels, owners and patterns. The

@@ -192,14 +192,14 @@ pub enum BuildError {
         /// Number of given functions.
         found: usize,
     },
-    /// A joint cannot be one-sided, or its grip is not possible.
+    /// A joint cannot be one-sided, or its grip or its armature is not possible.
     #[error("`{name}`: {reason}")]
     Limits {
         /// The joint.
         name: String,
-        /// The key of the limit: `one_sided`, `grip` or `load`.
+        /// The key: `one_sided`, `grip`, `load` or `armature`.
         key: &'static str,
-        /// Reason why the limits are not possible.
+        /// Reason why the value is not possible.
         reason: String,
     },
 }

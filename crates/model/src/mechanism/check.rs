@@ -2,14 +2,15 @@
 
 use std::collections::HashSet;
 
-use joints::is_usable;
 use joints::spec::{ConstraintSpec, Role, Spec};
+use joints::{LARGEST, is_usable};
 
 use super::BuildError;
 use crate::body::{Body, BodyRecord, BodyRef, DescribedBody, SpatialBody};
 use crate::contact::{ContactLimits, Grip, GripLoad};
 use crate::description::{Joint, MechanismDescription};
-use crate::element::{BodySpace, ConstraintKernels};
+use crate::element::{BodySpace, ConstraintKernels, MOST_BODIES};
+use crate::law::MEASURE_0;
 use crate::observed::Observables;
 use crate::principal::Principal;
 use crate::tolerance::{Tolerance, ToleranceScope};
@@ -25,6 +26,7 @@ pub(super) fn faults<S: BodySpace>(
     check_places(d, records, &mut errors);
     check_tolerances(d, records, &mut errors);
     check_limits(d, &mut errors);
+    check_armatures(d, records, &mut errors);
     check_observed(d, &mut errors);
     errors
 }
@@ -123,6 +125,45 @@ fn check_limits<S: BodySpace>(d: &MechanismDescription<S>, errors: &mut Vec<Buil
             key,
             reason,
         }));
+    }
+}
+
+/// Reports every armature that is not a finite number ≥ 0 for a joint coordinate of a joint.
+fn check_armatures<S: BodySpace>(
+    d: &MechanismDescription<S>,
+    records: &[BodyRecord],
+    errors: &mut Vec<BuildError>,
+) {
+    for armature in &d.armatures {
+        let (spec, inertia) = (armature.element.spec(), armature.inertia);
+        let (name, points) = (&armature.joint, armature.element.points());
+        check_role(name, spec, Role::Drive, "armatures", errors);
+        check_place::<S>(
+            records,
+            name,
+            &spec.common,
+            &armature.bodies,
+            (&points, 1),
+            errors,
+        );
+        let has_coordinate = spec.turning || spec.data.iter().any(|d| d.name == MEASURE_0);
+        let reason = if !(is_usable(inertia) && inertia >= 0.0) {
+            format!("`armature` is {inertia}, need a number ≥ 0 up to {LARGEST:e}")
+        } else if spec.rows.len() != 1 || spec.common.slots.len() > MOST_BODIES || !has_coordinate {
+            format!(
+                "`{}` is not a joint coordinate that can have an armature",
+                spec.common.scene_type
+            )
+        } else if d.joints.iter().all(|joint| joint.name != *name) {
+            "there is no active joint of this name, which has an armature".to_owned()
+        } else {
+            continue;
+        };
+        errors.push(BuildError::Limits {
+            name: name.clone(),
+            key: "armature",
+            reason,
+        });
     }
 }
 

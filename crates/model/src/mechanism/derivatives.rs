@@ -13,10 +13,14 @@ use crate::system::Scratch;
 /// Derivatives at one instant, and the storage for them.
 #[derive(Clone, Debug)]
 pub struct Derivatives {
-    /// Derivative of the forces, `∂Q/∂q`, n_v × n_v.
+    /// Derivative of the forces, `∂Q/∂q`, n_v × n_v, without armatures.
     pub force_dq: Sparse,
-    /// Derivative of the forces, `∂Q/∂v`, n_v × n_v.
+    /// Derivative of the forces, `∂Q/∂v`, n_v × n_v, without armatures.
     pub force_dv: Sparse,
+    /// Derivative of the loads of armatures, `∂(−gᵀ·a·s̈)/∂q`, n_v × n_v, at fixed accelerations.
+    pub armature_dq: Sparse,
+    /// Derivative of the loads of armatures, `∂(−gᵀ·a·s̈)/∂v`, n_v × n_v.
+    pub armature_dv: Sparse,
     /// Derivative of the reactions, `∂(Cᵀ·λ)/∂q`, n_v × n_v.
     pub reaction_dq: Sparse,
     /// Derivative of the acceleration residuals, `∂(C·a − Γ)/∂q`, (m + h) × n_v.
@@ -117,6 +121,8 @@ impl Derivatives {
         let mut d = Self {
             force_dq: Sparse::default(),
             force_dv: Sparse::default(),
+            armature_dq: Sparse::default(),
+            armature_dv: Sparse::default(),
             reaction_dq: Sparse::default(),
             residual_dq: Sparse::default(),
             gamma_dv: Sparse::default(),
@@ -132,6 +138,12 @@ impl Derivatives {
             d.residual_dq.push_block(spec.d_residual_dx, row, column);
             d.gamma_dv.push_block(spec.d_gamma_dv, row, column);
             d.velocity_dq.push_block(spec.d_velocity_dx, row, column);
+        }
+        for armature in &mechanism.elements.armatures {
+            let column = |k: usize| armature.site.column(k);
+            for matrix in [&mut d.armature_dq, &mut d.armature_dv] {
+                matrix.push_block(armature.pairs(), column, column);
+            }
         }
         d
     }
@@ -169,7 +181,7 @@ impl Derivatives {
         differentiate_forces(mechanism, s, [&mut self.force_dq, &mut self.force_dv]);
     }
 
-    /// Works like [`Derivatives::differentiate`], but only for the constraints. The function does
+    /// Works like [`Derivatives::differentiate`], but only for the constraints and the armatures. The function does
     /// not allocate memory.
     ///
     /// # Panics
@@ -194,10 +206,15 @@ impl Derivatives {
             c.d_gamma_dv(s, gamma_dv(spec.d_gamma_dv.len()));
             c.d_velocity_dx(s, velocity_dq(spec.d_velocity_dx.len()));
         }
+        let (mut by_q, mut by_v) = (self.armature_dq.blocks(), self.armature_dv.blocks());
+        for armature in &mechanism.elements.armatures {
+            let n = armature.pairs().len();
+            armature.derivatives(&s.slots, &self.slots, [by_q(n), by_v(n)]);
+        }
     }
 
     /// Computes only `∂Q/∂q` and `∂Q/∂v`, at the configuration and the velocities in the work
-    /// space. The function allocates memory.
+    /// space, without armatures. The function allocates memory.
     ///
     /// # Errors
     /// Returns the same errors as [`Derivatives::of`].

@@ -3,13 +3,14 @@
 
 use super::time_function::TimeFunction;
 use crate::called::Controller;
-use crate::element::{PlacedConstraint, PlacedForce, Site};
+use crate::element::{PlacedArmature, PlacedConstraint, PlacedForce, Site};
 
 /// The elements of a mechanism with their indices, and the arguments of their kernels.
 #[derive(Clone, Default)]
 pub(crate) struct Elements {
     pub(crate) constraints: Vec<PlacedConstraint>,
     pub(crate) forces: Vec<PlacedForce>,
+    pub(crate) armatures: Vec<PlacedArmature>,
     /// Arguments of kernels in addition to poses and velocities, in the order of the elements.
     pub(crate) given: Vec<KernelInput>,
     pub(crate) controllers: Vec<Controller>,
@@ -28,10 +29,12 @@ pub(crate) struct Elements {
 }
 
 impl Elements {
-    /// Returns the indices of all constraints and forces.
+    /// Returns the indices of all constraints, forces and armatures.
     pub(crate) fn sites(&self) -> impl Iterator<Item = &Site> {
         let constraints = self.constraints.iter().map(|c| &c.site);
-        constraints.chain(self.forces.iter().map(|f| &f.site))
+        let forces = self.forces.iter().map(|f| &f.site);
+        let armatures = self.armatures.iter().map(|a| &a.site);
+        constraints.chain(forces).chain(armatures)
     }
 
     /// Returns the functions of time as passed to the elements.

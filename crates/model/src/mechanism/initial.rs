@@ -19,6 +19,9 @@ pub(crate) fn initialise(mechanism: &mut Mechanism, q: &[f64]) {
     for f in &mut mechanism.elements.forces {
         f.initialise(&bodies);
     }
+    for armature in &mut mechanism.elements.armatures {
+        armature.initialise(&bodies);
+    }
     let mut s = mechanism.scratch();
     mechanism.pose(0.0, q, &mut s);
     mechanism.c(&mut s);

@@ -4,6 +4,7 @@
 //! and Γ of rows that are linear in q.
 
 use joints::Ring;
+use linalg::{AddedMass, MassMatrix};
 
 use super::Mechanism;
 use crate::element::{Bodies, Slots};
@@ -19,8 +20,13 @@ impl System for Mechanism {
         &self.mass
     }
 
+    fn inertia<'s>(&'s self, s: &'s Scratch) -> MassMatrix<'s> {
+        MassMatrix::new(&self.mass, &s.added)
+    }
+
     fn scratch(&self) -> Scratch {
         let layout = &self.layout;
+        let armatures = &self.elements.armatures;
         let mut s = Scratch {
             t: 0.0,
             bodies: Bodies::new(self.space(), self.bodies.len()),
@@ -41,7 +47,12 @@ impl System for Mechanism {
             jets_at: f64::NAN,
             block: vec![0.0; self.elements.block],
             own_rows: Vec::new(),
+            added: AddedMass::default(),
+            added_gamma: vec![0.0; armatures.len()],
         };
+        for armature in armatures {
+            s.added.push(armature.inertia, &armature.columns());
+        }
         s.slots.commands = self.commands();
         s
     }
@@ -80,6 +91,7 @@ impl System for Mechanism {
                 c.c(&s.slots, &mut s.entries[c.entries.clone()]);
             }
         }
+        self.add_mass(s);
     }
 
     fn b(&self, s: &mut Scratch) {
@@ -132,6 +144,15 @@ impl System for Mechanism {
                 }
             }
         }
+        self.add_mass(s);
+        for (k, armature) in self.elements.armatures.iter().enumerate() {
+            let gamma = armature.gamma(&s.slots);
+            s.added_gamma[k] = gamma;
+            let (inertia, columns, values) = s.added.row(k);
+            for (&column, g) in columns.iter().zip(values) {
+                s.force[column] += g * (inertia * gamma);
+            }
+        }
     }
 
     fn rate(&self, q: &[f64], v: &[f64], qd: &mut [f64]) {
@@ -150,6 +171,15 @@ impl System for Mechanism {
 
     fn difference(&self, q: &[f64], from: &[f64], d: &mut [f64]) {
         self.space().difference(q, from, d);
+    }
+}
+
+impl Mechanism {
+    /// Computes the rows of M.
+    fn add_mass(&self, s: &mut Scratch) {
+        for (k, armature) in self.elements.armatures.iter().enumerate() {
+            armature.gradient(&s.slots, s.added.values_mut(k));
+        }
     }
 }
 

@@ -241,6 +241,36 @@ impl<'m> Loads<'m> {
         })
     }
 
+    /// Returns the loads of armatures on one body about its centre of mass, in ground axes, at the
+    /// state of the last [`Loads::set`], with the accelerations v̇. The load along the joint
+    /// coordinate s of an armature a is −a·s̈. Each load is returned with the index of the armature
+    /// in [`Mechanism::armatures`].
+    ///
+    /// # Panics
+    /// Panics if the body does not exist, or if v̇ has the wrong length.
+    pub fn of_armatures(
+        &self,
+        body: usize,
+        acceleration: &[f64],
+    ) -> impl Iterator<Item = (usize, Reaction)> + '_ {
+        let armatures = self.mechanism.elements.armatures.iter().enumerate();
+        let own = armatures.filter(move |(_, a)| a.site.bodies.contains(&BodyRef::Body(body)));
+        let (space, centre) = (self.mechanism.space(), self.s.bodies.origin(body));
+        let acceleration = acceleration.to_vec();
+        own.map(move |(k, armature)| {
+            let columns = armature.columns();
+            let mut gradient = vec![0.0; columns.len()];
+            armature.gradient(&self.s.slots, &mut gradient);
+            let along = columns.iter().zip(&gradient);
+            let along: f64 = along.map(|(&j, g)| g * acceleration[j]).sum();
+            let load = -armature.inertia * (along - armature.gamma(&self.s.slots));
+            let entries = columns.iter().zip(&gradient);
+            let entries = entries.filter(|(column, _)| space.body_of(**column) == body);
+            let entries = entries.map(|(&column, g)| (column, load * g));
+            (k, self.of_entries(body, centre, entries))
+        })
+    }
+
     fn global(&self, body: BodyRef, point: [f64; 3]) -> [f64; 3] {
         let moved = |k| self.s.bodies.to_global(k, point);
         body.moving().map_or(point, moved)

@@ -198,6 +198,14 @@ fn assembled<'a>(
         let turned = f.turned().cloned();
         b.force(&f.name, &to, (f.kernels().clone(), turned), &functions);
     }
+    for armature in &whole.elements.armatures {
+        let of_joint = |&k: &usize| whole.layout.groups[k].name == armature.joint;
+        if groups.iter().any(of_joint) {
+            let to = translated(&armature.joint, &armature.site.bodies);
+            let framed = armature.framed().clone();
+            b.armature(&armature.joint, &to, framed, armature.inertia);
+        }
+    }
     let places = |n: usize| -> Vec<usize> {
         let each = bodies.iter().flat_map(|k| n * k..n * (k + 1));
         each.collect()

@@ -53,6 +53,10 @@ pub(super) fn free_spins(mechanism: &Mechanism, q: &[f64]) -> Vec<usize> {
             .filter(|(_, c)| c.abs() > DEPENDS * largest);
         entries.for_each(|(column, _)| free[column] = false);
     }
+    for (_, columns, g) in mechanism.inertia(&here).added().rows() {
+        let entries = columns.iter().zip(g).filter(|(_, g)| **g != 0.0);
+        entries.for_each(|(&column, _)| free[column] = false);
+    }
     for k in space.torques() {
         let mut d = vec![0.0; layout.n_v];
         d.chunks_exact_mut(space.n_v()).for_each(|own| own[k] = 1.0);

@@ -322,7 +322,7 @@ impl EnergyCurves {
         let mut measured = Self {
             kinetic: frames
                 .iter()
-                .map(|f| mechanism.kinetic_energy(&f.v))
+                .map(|f| mechanism.kinetic_energy(&f.q, &f.v))
                 .collect(),
             potential: frames
                 .iter()

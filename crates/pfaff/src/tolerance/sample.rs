@@ -281,12 +281,10 @@ impl Nominal {
         let (n, r) = (c.ncols(), kept.len());
         let mut saddle = KeptRowSaddle::new(n, r).map_err(failed)?;
         saddle
-            .factor(|k| c.row(kept[k]), mechanism.mass())
+            .factor(|k| c.row(kept[k]), mechanism.inertia(s))
             .map_err(failed)?;
         let of_kept = |all: &[f64]| -> Vec<f64> { kept.iter().map(|&i| all[i]).collect() };
-        let momentum: Vec<f64> = (mechanism.mass().iter().zip(&base.v))
-            .map(|(m, v)| m * v)
-            .collect();
+        let momentum = mechanism.inertia(s).product(&base.v);
         let (mut v, mut impulses) = (vec![0.0; n], vec![0.0; r]);
         let is_still = base.v.iter().all(|v| *v == 0.0) && s.b.iter().all(|b| *b == 0.0);
         if !is_still {
@@ -521,6 +519,7 @@ impl Nominal {
         let c: Matrix = layout.dense(s);
         let equations = Equations {
             mass: mechanism.mass().to_vec(),
+            added: mechanism.inertia(s).added().clone(),
             force: s.force.clone(),
             gamma: s.gamma.clone(),
             terms: RowTerms::of(mechanism, s, v, size),

@@ -7,7 +7,7 @@ use crate::limits::{AGREEMENT, ROWS_MAX};
 use crate::pose::velocity_units;
 use crate::row_decision::RowDecision;
 use crate::value::NoFiniteReaction;
-use linalg::{KeptRowSaddle, Matrix, SchurSaddle, SchurStructure};
+use linalg::{AddedMass, KeptRowSaddle, MassMatrix, Matrix, SchurSaddle, SchurStructure};
 use model::start::scene_size;
 use model::{Level, Mechanism, Scratch, System};
 use rank::RankStatus;
@@ -27,6 +27,7 @@ use crate::sparse::{blocks, rows_of};
 /// let c = Matrix::from_rows(&[[1.0], [1.0]]);
 /// let equations = Equations {
 ///     mass: vec![1.0],
+///     added: linalg::AddedMass::default(),
 ///     force: vec![3.0],
 ///     terms: RowTerms::of_matrix(&c),
 ///     c,
@@ -38,8 +39,10 @@ use crate::sparse::{blocks, rows_of};
 /// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Equations {
-    /// Diagonal of the mass matrix M, n_v values.
+    /// Diagonal of the mass matrix M without its rows, n_v values.
     pub mass: Vec<f64>,
+    /// The rows of the mass matrix M, see [`linalg::MassMatrix`].
+    pub added: AddedMass,
     /// Generalised forces Q, n_v values.
     pub force: Vec<f64>,
     /// Constraint matrix C, (m + h) × n_v.
@@ -135,6 +138,7 @@ impl Equations {
     fn at(mechanism: &Mechanism, (q, v): (&[f64], &[f64]), s: Scratch) -> Self {
         Self {
             mass: mechanism.mass().to_vec(),
+            added: mechanism.inertia(&s).added().clone(),
             c: mechanism.layout().dense(&s),
             terms: RowTerms::of(mechanism, &s, v, scene_size(mechanism, q)),
             force: s.force,
@@ -166,6 +170,12 @@ impl Equations {
         self.solution_within(&rows.into(), |_, _| 0.0)
     }
 
+    /// Returns the mass matrix M.
+    #[must_use]
+    pub fn inertia(&self) -> MassMatrix<'_> {
+        MassMatrix::new(&self.mass, &self.added)
+    }
+
     fn solved(&self, rows: &RowDecision) -> Result<(Solution, KeptRowSaddle), ChoiceError> {
         let (m, n) = (self.c.nrows(), self.c.ncols());
         check("gamma", &self.gamma, m)?;
@@ -175,7 +185,7 @@ impl Equations {
         check_rows(rows, m)?;
         let kept = &rows.kept;
         let mut saddle = KeptRowSaddle::new(n, kept.len())?;
-        saddle.factor(|k| self.c.row(kept[k]), &self.mass)?;
+        saddle.factor(|k| self.c.row(kept[k]), self.inertia())?;
         let gamma: Vec<f64> = kept.iter().map(|&i| self.gamma[i]).collect();
         let (mut a, mut of_kept) = (vec![0.0; n], vec![0.0; kept.len()]);
         saddle.solve(&self.force, &gamma, &mut a, &mut of_kept)?;
@@ -197,7 +207,8 @@ impl Equations {
         let (solution, mut saddle) = self.solved(rows)?;
         let a = &solution.acceleration;
         let row = |i: usize| self.c.row(i).iter().copied().enumerate();
-        let largest = self.terms.largest(a, (&self.mass, &self.force));
+        let masses = self.inertia().full_diagonal();
+        let largest = self.terms.largest(a, (&masses, &self.force));
         agree(rows, row, a, (&self.gamma, &self.terms, largest), |i| {
             let z = self.dependency(rows, i, &mut saddle)?;
             let implied = rows
@@ -293,8 +304,13 @@ fn sparse_solution(
     let scaled = |x: &[f64]| -> Vec<f64> { x.iter().zip(&units).map(|(x, u)| x * u).collect() };
     let kept = &rows.kept;
     let c = rows_of(mechanism, s, kept.iter().copied(), |j| units[j]);
-    let mut saddle = SchurSaddle::new(SchurStructure::new(&c, &blocks(mechanism)));
-    saddle.factor(&c, &scaled(&scaled(mechanism.mass())))?;
+    let inertia = mechanism.inertia(s);
+    let mut added = inertia.added().clone();
+    added.take(inertia.added(), &units);
+    let masses = scaled(&scaled(mechanism.mass()));
+    let structure = SchurStructure::with_added(&c, &blocks(mechanism), &added);
+    let mut saddle = SchurSaddle::new(structure);
+    saddle.factor(&c, MassMatrix::new(&masses, &added))?;
     let gamma: Vec<f64> = kept.iter().map(|&i| s.gamma[i]).collect();
     let (mut x, mut of_kept) = (vec![0.0; layout.n_v], vec![0.0; kept.len()]);
     saddle.solve(&c, &scaled(force), &gamma, &mut x, &mut of_kept)?;
@@ -302,7 +318,7 @@ fn sparse_solution(
     let row = |i: usize| layout.row(s, i);
     if !may_miss(mechanism) {
         let terms = RowTerms::of(mechanism, s, v, size);
-        let largest = terms.largest(&a, (mechanism.mass(), force));
+        let largest = terms.largest(&a, (&inertia.full_diagonal(), force));
         let of_rows = (&s.gamma[..], &terms, largest);
         agree(rows, row, &a, of_rows, |_| Ok((0.0, 0.0)))?;
     }

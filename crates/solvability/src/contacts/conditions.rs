@@ -353,12 +353,10 @@ fn cluster<'s>(
     }
     // Loads that vanish are rounding errors of the other loads, and of the forces that accelerate
     // the bodies.
-    let mass = questions
-        .mechanism()
-        .mass()
-        .iter()
-        .zip(&solution.acceleration);
-    let mut size = mass.fold(0.0, |most: f64, (m, a)| most.max((m * a).abs()));
+    let mut inertia = vec![0.0; solution.acceleration.len()];
+    let matrix = questions.mechanism().inertia_at(questions.q());
+    matrix.add_sizes(&solution.acceleration, &mut inertia);
+    let mut size = linalg::kernels::max_abs(&inertia);
     for &k in parts {
         let lambda = questions.parts()[k]
             .extent

@@ -80,7 +80,7 @@ pub fn lifted(
     let failed = |e: linalg::SaddleError| PermittedError::Accelerations(e.to_string());
     let mut saddle = KeptRowSaddle::new(layout.n_v, kept.len()).map_err(failed)?;
     saddle
-        .factor(|k| equations.c.row(kept[k]), &equations.mass)
+        .factor(|k| equations.c.row(kept[k]), equations.inertia())
         .map_err(failed)?;
     let mut accelerations = |force: &[f64], gamma: &[f64]| {
         let (mut a, mut lambda) = (vec![0.0; layout.n_v], vec![0.0; kept.len()]);
@@ -101,8 +101,9 @@ pub fn lifted(
         pushed.push(accelerations(&force, &zeros)?);
     }
     // Gaps that two-sided joints keep closed have only a mobility due to rounding.
+    let masses = equations.inertia().full_diagonal();
     let mobility = |&(_, row, rate): &(ConstraintId, usize, f64)| -> f64 {
-        let each = equations.c.row(row).iter().zip(&equations.mass);
+        let each = equations.c.row(row).iter().zip(&masses);
         let each = each.map(|(c, m)| if *m > 0.0 { c * c / m } else { 0.0 });
         rate * rate * each.sum::<f64>()
     };
@@ -128,7 +129,7 @@ pub fn lifted(
     // The acceleration without any other joint. Accelerations that other joints prevent are
     // rounding errors of it.
     let unheld = |&(_, row, rate): &(ConstraintId, usize, f64)| -> f64 {
-        let loads = equations.force.iter().zip(&equations.mass);
+        let loads = equations.force.iter().zip(&masses);
         let each = equations.c.row(row).iter().zip(loads);
         let each = each.map(|(c, (q, m))| if *m > 0.0 { (c * q / m).abs() } else { 0.0 });
         rate.abs() * (each.sum::<f64>() + equations.gamma[row].abs())

@@ -53,7 +53,7 @@ impl TwoSidedContacts {
         let loads = ids.map(|id| norm(&reactions.reaction_in(&mut block, id, multipliers).force));
         // Without loads, a force is compared with the force that would reverse the velocities
         // within the size of the mechanism. Smaller forces are rounding.
-        let turning = 2.0 * mechanism.kinetic_energy(v) / scene_size(mechanism, q);
+        let turning = 2.0 * mechanism.kinetic_energy(q, v) / scene_size(mechanism, q);
         let size = loads.fold(max_abs(&s.force).max(turning), f64::max);
         // The gap of a surface is positive outside, so its multiplier is negative while it presses.
         let pull = |id: &ConstraintId| {

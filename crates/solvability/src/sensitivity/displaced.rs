@@ -18,12 +18,20 @@ pub(super) struct DisplacedEquations<'a> {
     pub(super) q: &'a [f64],
     pub(super) v: Vec<f64>,
     pub(super) kept: &'a [usize],
-    pub(super) mass: Vec<f64>,
+    pub(super) mass: BodyMasses,
     pub(super) force: Vec<f64>,
     /// Velocities of one unit.
     pub(super) units: Vec<f64>,
     /// Size of the mechanism (m).
     pub(super) size: f64,
+}
+
+/// Masses of the equations.
+pub(super) enum BodyMasses {
+    /// The masses of the mechanism.
+    OfMechanism,
+    /// Equal masses, because there is no load.
+    Equal(Vec<f64>),
 }
 
 impl DisplacedEquations<'_> {
@@ -126,7 +134,11 @@ impl DisplacedEquations<'_> {
         let gamma: Vec<f64> = self.kept.iter().map(|&i| s.gamma[i]).collect();
         let (mut a, mut of_kept) = (vec![0.0; n], vec![0.0; self.kept.len()]);
         let rows = rows_of(mechanism, &s, self.kept.iter().copied(), |_| 1.0);
-        let mut saddle = KeptRowSaddle::of_rows(&rows, &self.mass).ok()?;
+        let mut saddle = match &self.mass {
+            BodyMasses::OfMechanism => KeptRowSaddle::of_rows(&rows, mechanism.inertia(&s)),
+            BodyMasses::Equal(masses) => KeptRowSaddle::of_rows(&rows, masses),
+        }
+        .ok()?;
         saddle
             .solve(&self.force, &gamma, &mut a, &mut of_kept)
             .ok()?;

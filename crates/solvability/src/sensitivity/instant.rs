@@ -14,7 +14,7 @@ use model::{
     ColumnKind, ConstraintId, DataBlock, DataGradients, DataUnit, Derivatives, Mechanism, System,
 };
 
-use super::displaced::DisplacedEquations;
+use super::displaced::{BodyMasses, DisplacedEquations};
 use super::held::{HeldMultipliers, HeldSlopes};
 use super::joined::JoinedBodies;
 use super::number::ReactionNumber;
@@ -50,6 +50,8 @@ pub(super) struct SolvedEquations<'a> {
 struct Slopes {
     derivatives: model::Derivatives,
     by_data: DataGradients,
+    /// Derivative of the loads of armatures with respect to a displacement.
+    armature_dq: model::Sparse,
     /// Factored kept rows of C (only if the result depends on velocities) and of Φ. Columns are in
     /// velocity units.
     c: Option<KeptRowSaddle>,
@@ -101,21 +103,23 @@ impl<'a> SolvedEquations<'a> {
         let size = scene_size(mechanism, &joined.q);
         let units = units(mechanism, size);
         let rows = rows_of(mechanism, &s, kept.iter().copied(), |_| 1.0);
-        let mut saddle = KeptRowSaddle::of_rows(&rows, mechanism.mass())?;
+        let mut saddle = KeptRowSaddle::of_rows(&rows, mechanism.inertia(&s))?;
         let mut gamma: Vec<f64> = kept.iter().map(|&i| s.gamma[i]).collect();
         let (mut a, mut of_kept) = (vec![0.0; n], vec![0.0; kept.len()]);
         saddle.solve(&joined.force, &gamma, &mut a, &mut of_kept)?;
         let mut v = Cow::Borrowed(&joined.v[..]);
-        let mut load = largest_load(mechanism, &joined.force, &a, size);
-        let (mut mass, mut force) = (mechanism.mass().to_vec(), joined.force.to_vec());
+        let inertial = mechanism.inertia(&s).product(&a);
+        let mut load = largest_load(mechanism, &joined.force, &inertial, size);
+        let (mut mass, mut force) = (BodyMasses::OfMechanism, joined.force.to_vec());
         if load <= LOAD_ROUNDING * largest_stop(mechanism, &v, size) {
             // The bodies are at rest and have equal masses, because without a load there is no
             // reference for speed or mass.
             v = Cow::Owned(vec![0.0; n]);
             mechanism.twist(&v, &mut s);
             gamma.fill(0.0);
-            mass = units.iter().map(|unit| 1.0 / (unit * unit)).collect();
-            saddle.factor(|k| rows.row(k).1, &mass)?;
+            let equal: Vec<f64> = units.iter().map(|unit| 1.0 / (unit * unit)).collect();
+            saddle.factor(|k| rows.row(k).1, &equal)?;
+            mass = BodyMasses::Equal(equal);
             force = unit_loads(mechanism, size);
             saddle.solve(&force, &gamma, &mut a, &mut of_kept)?;
             load = 1.0;
@@ -126,6 +130,16 @@ impl<'a> SolvedEquations<'a> {
         }
         let mut derivatives = Derivatives::of_constraints(mechanism);
         derivatives.differentiate_constraints(mechanism, &a, &lambda, &s);
+        // The terms that are quadratic in velocities are loads, which are constant. Therefore the
+        // load of an armature changes as at rest.
+        let mut of_armatures = Derivatives::of_constraints(mechanism);
+        let mut inertial = vec![0.0; n];
+        if mechanism.has_armatures() && matches!(mass, BodyMasses::OfMechanism) {
+            inertial.clone_from(&a);
+            let mut at_rest = s.clone();
+            mechanism.twist(&vec![0.0; n], &mut at_rest);
+            of_armatures.differentiate_constraints(mechanism, &a, &lambda, &at_rest);
+        }
         let feels_velocities = derivatives.gamma_dv.iter().any(|(.., value)| value != 0.0);
         let holonomic = kept.partition_point(|&i| i < layout.m);
         let moved = |block: DataBlock| {
@@ -153,7 +167,8 @@ impl<'a> SolvedEquations<'a> {
             }),
             slopes: Slopes {
                 derivatives,
-                by_data: mechanism.data().gradients(&s, &lambda, &a, &v),
+                armature_dq: of_armatures.armature_dq,
+                by_data: mechanism.data().gradients(&s, &lambda, [&a, &inertial], &v),
                 c,
                 phi_q,
             },
@@ -348,6 +363,7 @@ impl<'a> SolvedEquations<'a> {
             w.by_pose[column] += slope;
         }
         add_transposed(d.reaction_dq.iter(), &w.y, -1.0, &mut w.by_pose);
+        add_transposed(slopes.armature_dq.iter(), &w.y, 1.0, &mut w.by_pose);
         add_transposed(d.residual_dq.iter(), &w.y_lambda, -1.0, &mut w.by_pose);
         add_transposed(d.velocity_dq.iter(), &w.w_v, -1.0, &mut w.by_pose);
         multipliers(&mut slopes.phi_q, &w.by_pose, self.kept, &mut w.w_q);
@@ -485,14 +501,13 @@ fn add_transposed(
 
 /// Returns the largest applied or inertial force on a body (N). Torques are divided by the size.
 /// Forces and torques count as vectors, because single components depend on the axes.
-fn largest_load(mechanism: &Mechanism, force: &[f64], a: &[f64], size: f64) -> f64 {
-    let inertial: Vec<f64> = mechanism.mass().iter().zip(a).map(|(m, a)| m * a).collect();
+fn largest_load(mechanism: &Mechanism, force: &[f64], inertial: &[f64], size: f64) -> f64 {
     let space = mechanism.space();
     let of_body = |body: usize| {
         let (columns, turned) = (space.columns_of(body), space.rotations_of(body));
         let moved = columns.start..turned.start;
         let of = |load: &[f64]| norm(&load[moved.clone()]).max(norm(&load[turned.clone()]) / size);
-        of(force).max(of(&inertial))
+        of(force).max(of(inertial))
     };
     let bodies = 0..mechanism.bodies().len();
     bodies.map(of_body).fold(0.0, f64::max)

@@ -40,8 +40,7 @@ impl JoinedBodies<'_> {
         part.pose(t, &q, &mut s);
         part.c(&mut s);
         let lambda = extent.of_rows(solution.multipliers.as_chosen());
-        let mut force = own(&solution.acceleration);
-        force.iter_mut().zip(part.mass()).for_each(|(f, m)| *f *= m);
+        let mut force = part.inertia(&s).product(&own(&solution.acceleration));
         for (i, l) in lambda.iter().enumerate() {
             part.layout()
                 .row(&s, i)

@@ -2,7 +2,10 @@
 //! The configuration follows by Newton's method, the dropped rows do not change, and the loads are
 //! constant.
 
-use joints::{Direction, Distance, Gear, PinInSlot, Translational};
+use joints::{
+    Direction, Distance, Gear, PinInSlot, PinInSlotDisplacementDrive, RevoluteAngleDrive,
+    Translational, TranslationalDisplacementDrive,
+};
 use linalg::Matrix;
 use model::space::{cross, difference};
 use model::{DataUnit, Frame};
@@ -41,8 +44,9 @@ impl Draw {
     }
 }
 
-/// A planar mechanism: a tree with a few additional joints.
-fn plane(draw: &mut Draw) -> Mechanism {
+/// A planar mechanism: a tree with a few additional joints, and with armatures of its joints in
+/// multiples of an inertia.
+fn plane(draw: &mut Draw, armatures: f64) -> Mechanism {
     let mut d = Description::new("plane");
     d.gravity = [3.0, -9.0];
     let n = 1 + draw.below(3);
@@ -69,8 +73,16 @@ fn plane(draw: &mut Draw) -> Mechanism {
         let axis = Direction::new(draw.vector()).expect("a direction");
         let name = &format!("J{k}");
         match draw.below(6) {
-            0 => d.joint(name, &pair, Translational::new(s_i, s_j, axis)),
-            1 => d.joint(name, &pair, PinInSlot { s_i, s_j, axis }),
+            0 => {
+                let drive = TranslationalDisplacementDrive::new(s_i, s_j, axis);
+                d.armature(name, &pair, drive, armatures * 2.0);
+                d.joint(name, &pair, Translational::new(s_i, s_j, axis))
+            }
+            1 => {
+                let drive = PinInSlotDisplacementDrive::new(s_i, s_j, axis);
+                d.armature(name, &pair, drive, armatures);
+                d.joint(name, &pair, PinInSlot { s_i, s_j, axis })
+            }
             2 => d.joint(
                 name,
                 &[own],
@@ -87,7 +99,11 @@ fn plane(draw: &mut Draw) -> Mechanism {
                 let mesh = [pair[0], pair[1], BodyRef::Ground];
                 d.joint(name, &mesh, Gear::new(-0.6))
             }
-            _ => d.joint(name, &pair, Revolute { s_i, s_j }),
+            _ => {
+                let drive = RevoluteAngleDrive::new(s_i, s_j);
+                d.armature(name, &pair, drive, armatures * 0.4);
+                d.joint(name, &pair, Revolute { s_i, s_j })
+            }
         };
     }
     Mechanism::build(&d).expect("it builds")
@@ -183,12 +199,20 @@ fn follow(
     mechanism.gamma(&mut s);
     mechanism.force(&mut s);
     let force = force.unwrap_or(&s.force);
+    let mut inertia = Matrix::zeros(n, n);
+    for j in 0..n {
+        let mut unit = vec![0.0; n];
+        unit[j] = 1.0;
+        inertia
+            .row_mut(j)
+            .copy_from_slice(&mechanism.inertia(&s).product(&unit));
+    }
     let saddle = Matrix::from_fn(n + kept.len(), n + kept.len(), |i, j| {
         match (i < n, j < n) {
-            (true, true) if i == j => mechanism.mass()[i],
+            (true, true) => inertia[(i, j)],
             (true, false) => c[(j - n, i)],
             (false, true) => c[(i - n, j)],
-            _ => 0.0,
+            (false, false) => 0.0,
         }
     });
     let gamma = kept.iter().map(|&i| s.gamma[i]);
@@ -327,11 +351,7 @@ fn compare(mechanism: &Mechanism, draw: &mut Draw, what: &str) -> usize {
     // The largest applied or inertial load on a body.
     let space = mechanism.space();
     let half = space.n_translations();
-    let inertial: Vec<f64> =
-        at.a.iter()
-            .zip(mechanism.mass())
-            .map(|(a, m)| m * a)
-            .collect();
+    let inertial = mechanism.inertia(&at.s).product(&at.a);
     let length = |x: &[f64]| x.iter().map(|x| x * x).sum::<f64>().sqrt();
     let loads = [&inertial, &at.s.force].into_iter().flat_map(|load| {
         let bodies = load.chunks_exact(space.n_v());
@@ -370,8 +390,15 @@ fn numbers_change_as_those_of_mechanisms_built_with_other_data() {
     let (mut of_plane, mut of_space) = (0, 0);
     for seed in 0..60 {
         let mut draw = Draw(1 + seed);
-        let mechanism = plane(&mut draw);
+        let mechanism = plane(&mut draw, 0.0);
         of_plane += compare(&mechanism, &mut draw, &format!("plane {seed}"));
+        let mut draw = Draw(1 + seed);
+        let mechanism = plane(&mut draw, 1.0);
+        of_plane += compare(
+            &mechanism,
+            &mut draw,
+            &format!("plane with armatures {seed}"),
+        );
     }
     for seed in 0..15 {
         let mut draw = Draw(1001 + seed);
