@@ -4,6 +4,7 @@ mod actuators;
 mod agreement;
 mod allocations;
 mod along_motion;
+mod armatures;
 mod bad_matrices;
 mod bicycle;
 mod book;

@@ -4,6 +4,7 @@
 use model::{ContactLimits, Joint};
 
 use crate::active;
+use crate::armature::{self, ARMATURE};
 use crate::bodies::Bodies;
 use crate::connection;
 use crate::contact;
@@ -96,6 +97,7 @@ fn one<'r, S: SceneSpace>(
             if let [definition, ..] = definitions[..] {
                 contact::read(&mut table, definition.spec, &[]);
             }
+            table.optional(&ARMATURE);
             element::end(table, name, read.is_active);
             return read;
         };
@@ -113,6 +115,10 @@ fn one<'r, S: SceneSpace>(
         }
         _ => None,
     };
+    let armature = match read.kind {
+        JointKind::Defined(_) => table.optional(&ARMATURE),
+        JointKind::Unknown | JointKind::Coupling => None,
+    };
     let entry = element::end(table, name, read.is_active);
     read.complete = element.map(|(bodies, element)| CompleteJoint {
         joint: Joint {
@@ -126,6 +132,13 @@ fn one<'r, S: SceneSpace>(
         entry,
         arguments,
         centre,
+        armatures: Vec::new(),
     });
+    if let Some(field) = armature {
+        let armatures = armature::read(&field, &read);
+        if let Some(complete) = &mut read.complete {
+            complete.armatures = armatures;
+        }
+    }
     read
 }

@@ -3,8 +3,8 @@
 use std::ops::Range;
 
 use joints::Argument;
-use model::Joint;
 use model::registry::ConstraintDefinition;
+use model::{Armature, Joint};
 
 use crate::source_map::Entry;
 use crate::space::SceneSpace;
@@ -40,6 +40,7 @@ pub(crate) struct CompleteJoint<S: SceneSpace> {
     pub(crate) arguments: Vec<Argument>,
     /// The centre of stiffness of the joint, if it is given.
     pub(crate) centre: Option<CentreOfStiffness>,
+    pub(crate) armatures: Vec<Armature<S>>,
 }
 
 impl<'r, S: SceneSpace> JointRead<'r, S> {

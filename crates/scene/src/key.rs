@@ -77,6 +77,8 @@ pub(crate) enum Takes {
     Law,
     /// A force, or the name of a joint.
     Load,
+    /// A table with one number for each joint coordinate.
+    Inertias,
     /// A list of steps of a function of time, at least one.
     Steps,
 }

@@ -29,6 +29,7 @@
 mod active;
 mod argument_source;
 mod arguments;
+mod armature;
 mod bearings;
 mod between;
 mod bodies;

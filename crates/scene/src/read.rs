@@ -188,8 +188,10 @@ fn document<S: SceneBody>(mut root: Table, registry: &Registry) -> Scene {
     let joints = parts.joints.into_iter();
     let mut centres = Vec::new();
     let joints = joints.filter_map(|read| read.complete);
+    let mut armatures = Vec::new();
     let joints = joints.map(|own| {
         centres.extend(own.centre);
+        armatures.extend(own.armatures);
         (own.joint, own.entry)
     });
     let (joints, joint_entries) = joints.unzip();
@@ -210,7 +212,7 @@ fn document<S: SceneBody>(mut root: Table, registry: &Registry) -> Scene {
         forces,
         start_time,
         controllers: Vec::new(),
-        armatures: Vec::new(),
+        armatures,
     });
     let source = SourceMap {
         silenced: Vec::new(),

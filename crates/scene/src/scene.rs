@@ -213,6 +213,9 @@ fn retain_active<S: BodySpace>(
     retain("joint", &mut d.joints, &mut source.joints, inactive);
     retain("drive", &mut d.drives, &mut source.drives, inactive);
     retain("force", &mut d.forces, &mut source.forces, inactive);
+    let joints = &d.joints;
+    let is_active = |name: &str| joints.iter().any(|joint| joint.name == name);
+    d.armatures.retain(|armature| is_active(&armature.joint));
 }
 
 /// Removes the inactive items of a list, and their entries in the list of positions.

@@ -218,7 +218,7 @@ def loops_of(file: Path) -> reference.Loops:
 def compare_ranks(
     model: reference.mujoco.MjModel, result: Result, analysis: dict[str, object]
 ) -> str:
-    """Compares redundancy and mobility. Joints of the tree and rotors have independent rows."""
+    """Compares redundancy and mobility. Joints of the tree have independent rows."""
     if result.analysed != "ok":
         raise reference.NotComparable(f"analyze: {result.analysed}")
     rows, rank = reference.rank(model)

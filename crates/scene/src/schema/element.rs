@@ -7,6 +7,7 @@ use serde_json::{Map, Value, json};
 
 use super::value::{described, name_in, number, reference, tuple, vector};
 use crate::active::ACTIVE;
+use crate::armature;
 use crate::bearings::{BEARINGS, CARRIER_KEY, PRESSURE_ANGLE};
 use crate::between::{MARKERS, takes_markers};
 use crate::body::GROUND;
@@ -49,10 +50,10 @@ fn keys<S: SceneSpace>(registry: &Definitions<S>, spec: &Spec, of: ElementKind) 
         let mut definitions = registry.constraints(spec.scene_type);
         let own = definitions.find(|definition| definition.spec.common.name == spec.name);
         keys.extend([tolerance::OF_JOINT, stiffness::key(S::KIND)]);
-        keys.extend(
-            own.into_iter()
-                .flat_map(|definition| contact::keys(definition.spec)),
-        );
+        keys.extend(own.into_iter().flat_map(|definition| {
+            let armature = armature::key(definition.spec);
+            armature.into_iter().chain(contact::keys(definition.spec))
+        }));
     }
     keys
 }

@@ -61,6 +61,11 @@ pub(super) fn described(key: &Key) -> Value {
         }),
         Takes::Function => reference("function"),
         Takes::Load => json!({ "type": ["number", "string"], "minimum": 0 }),
+        Takes::Inertias => json!({
+            "type": "object",
+            "minProperties": 1,
+            "additionalProperties": number(Interval::NotNegative),
+        }),
         Takes::Law => json!({ "type": ["number", "string"] }),
         Takes::Steps => json!({ "type": "array", "items": reference("step"), "minItems": 1 }),
     };

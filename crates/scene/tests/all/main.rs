@@ -1,6 +1,7 @@
 //! Tests of the scene reader through its public functions.
 
 mod active;
+mod armature;
 mod cover;
 mod diagnostics;
 mod elements;
