@@ -72,8 +72,8 @@ pub struct ImportedScene {
     pub remarks: Vec<String>,
     /// Number of bodies, and number of joints and couplings, in the file.
     pub counts: [usize; 2],
-    /// Number of rotors for armatures. Each rotor is one more body with a joint and a coupling.
-    pub rotors: usize,
+    /// Number of joint coordinates with an armature.
+    pub armatures: usize,
 }
 
 impl ImportedScene {
@@ -220,7 +220,7 @@ pub fn import(name: &str, text: &str, options: &Options) -> Result<ImportedScene
         scene,
         format,
         counts: [model.links.len(), joints + model.couplings.len()],
-        rotors: model.rotors(),
+        armatures: model.armatures(),
         omissions: findings.omissions,
         remarks: findings.remarks,
     })

@@ -114,7 +114,7 @@ pub(crate) struct Load {
     pub(crate) damping: f64,
     /// Value of the coordinate at which the spring has no load.
     pub(crate) reference: f64,
-    /// Moment of inertia of a rotor that rotates with the coordinate.
+    /// Inertia of a rotor that rotates with the coordinate (kg·m², or kg along a slide).
     pub(crate) armature: f64,
 }
 
@@ -263,8 +263,8 @@ pub(crate) struct Model {
 }
 
 impl Model {
-    /// Number of coordinates with an armature. Each armature becomes a rotor.
-    pub(crate) fn rotors(&self) -> usize {
+    /// Number of coordinates with an armature.
+    pub(crate) fn armatures(&self) -> usize {
         let active = self.joints.iter().filter(|joint| joint.is_active);
         let loads = active.flat_map(|joint| joint.loads);
         loads.filter(|load| load.armature != 0.0).count()

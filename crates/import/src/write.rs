@@ -239,6 +239,9 @@ impl<'a> Writer<'a> {
             if let JointKind::Screw(pitch) = joint.kind {
                 key(out, "pitch", &number(pitch));
             }
+            if let Some(value) = armature(joint) {
+                key(out, "armature", &value);
+            }
             if !joint.is_active {
                 key(out, "active", "false");
             }
@@ -356,7 +359,7 @@ impl<'a> Writer<'a> {
         }
     }
 
-    /// Springs, dampers and rotors of joints, and compensated weights.
+    /// Springs and dampers of joints, and compensated weights.
     fn loads(&mut self, out: &mut String) {
         for (k, joint) in self.model.joints.iter().enumerate() {
             if !joint.is_active {
@@ -364,9 +367,6 @@ impl<'a> Writer<'a> {
             }
             for (coordinate, load) in joint.loads.iter().enumerate() {
                 self.spring(k, coordinate, load, out);
-                if load.armature != 0.0 {
-                    self.rotor(k, coordinate, load.armature, out);
-                }
             }
         }
         for (k, link) in self.model.links.iter().enumerate() {
@@ -441,55 +441,23 @@ impl<'a> Writer<'a> {
             key(out, "free_angle", &number(free));
         }
     }
+}
 
-    /// Writes a wheel on the ground that rotates with a coordinate. The kinetic energy ½·a·q̇² of
-    /// the wheel equals the energy of the armature, which MuJoCo adds to the diagonal of the mass
-    /// matrix.
-    fn rotor(&mut self, k: usize, coordinate: usize, inertia: f64, out: &mut String) {
-        let joint = self.coordinate(k, coordinate).to_owned();
-        let wheel = self.places.free(&format!("{joint} rotor"));
-        let bearing = self.elements.free(&format!("{joint} rotor bearing"));
-        let gear = self.elements.free(&format!("{joint} rotor gear"));
-        let [first, _] = self.model.joints[k].links;
-        let point = self.model.pose(first) * nalgebra::Point3::from(self.model.joints[k].points[0]);
-        table(out, "body", &wheel);
-        key(out, "mass", "0.0");
-        let of = number(inertia);
-        key(out, "inertia", &format!("[{of}, {of}, {of}]"));
-        key(out, "position", &vector(point.coords));
-        let moved = self.model.joints[k]
-            .moved
-            .get(coordinate)
-            .copied()
-            .unwrap_or(0.0);
-        if moved != 0.0 {
-            let turned = crate::pose::rotation(Vector3::z(), moved);
-            key(
-                out,
-                "start",
-                &format!("{{ orientation = {} }}", orientation(turned)),
-            );
-        }
-        table(out, "joint", &bearing);
-        key(out, "type", "\"revolute\"");
-        key(out, "bodies", &format!("[\"ground\", {}]", text(&wheel)));
-        let at = vector(point.coords);
-        key(
-            out,
-            "points",
-            &format!("{{ ground = {at}, {} = [0.0, 0.0, 0.0] }}", text(&wheel)),
-        );
-        key(out, "axis", "[0.0, 0.0, 1.0]");
-        table(out, "joint", &gear);
-        key(out, "type", "\"coupling\"");
-        let measures = [self.measure((k, coordinate)), format!("{bearing}.angle")];
-        key(
-            out,
-            "measures",
-            &format!("[{}, {}]", text(&measures[0]), text(&measures[1])),
-        );
-        key(out, "ratio", "1.0");
+/// The armature of a joint. MuJoCo adds the armature of a coordinate to the diagonal of the mass
+/// matrix, so its kinetic energy is ½·a·q̇².
+fn armature(joint: &Joint) -> Option<String> {
+    let measures = joint.kind.measures();
+    let given = measures.iter().zip(&joint.loads);
+    let given: Vec<(&str, String)> = given
+        .filter(|(_, load)| load.armature != 0.0)
+        .map(|(measure, load)| (*measure, number(load.armature)))
+        .collect();
+    let (_, first) = given.first()?;
+    if measures.len() == 1 {
+        return Some(first.clone());
     }
+    let parts = given.iter().map(|(measure, a)| format!("{measure} = {a}"));
+    Some(format!("{{ {} }}", parts.collect::<Vec<_>>().join(", ")))
 }
 
 /// The law of a spring with this free length, and of a damper.

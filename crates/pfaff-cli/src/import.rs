@@ -105,7 +105,7 @@ fn document<'a>(
         file,
         bodies: imported.counts[0],
         joints: imported.counts[1],
-        rotors: imported.rotors,
+        armatures: imported.armatures,
         remarks: &imported.remarks,
         left_out: imported.omissions.iter().map(left_out).collect(),
         scene_error: scene_error.map(str::to_owned),
@@ -114,15 +114,15 @@ fn document<'a>(
 
 fn words(imported: &ImportedScene, file: &str, error: Option<&str>) -> String {
     let [bodies, joints] = imported.counts;
-    let rotors = match imported.rotors {
+    let armatures = match imported.armatures {
         0 => String::new(),
         n => format!(
-            " and {} (each a body with a joint and a coupling)",
-            count(n, "rotor for an armature", "rotors for armatures")
+            " with {} (gyroscopic terms of rotors are neglected)",
+            count(n, "armature", "armatures")
         ),
     };
     let mut out = format!(
-        "{}: {}, {}{rotors}, written to {file}\n",
+        "{}: {}, {}{armatures}, written to {file}\n",
         imported.format,
         count(bodies, "body", "bodies"),
         count(joints, "joint or coupling", "joints and couplings"),

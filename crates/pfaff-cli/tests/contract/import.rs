@@ -6,7 +6,7 @@ use serde_json::Value;
 
 use super::{Folder, pfaff, stdout, with_scene};
 
-/// A pendulum with a rotor; the moments of inertia are given.
+/// A pendulum with an armature; the moments of inertia are given.
 fn pendulum(moments: &str) -> String {
     format!(
         "<mujoco><worldbody><body name='rod'><joint name='hinge' axis='0 1 0' armature='0.1'/>\
@@ -14,18 +14,20 @@ fn pendulum(moments: &str) -> String {
     )
 }
 
-/// `check` counts a rotor as a body with two more joints, and the answer of `import` states this.
+/// An armature is a key of its joint, and the answer of `import` counts the armatures.
 #[test]
-fn rotors_are_counted() {
-    let folder = Folder::new("import-rotors");
+fn armatures_are_keys_of_joints() {
+    let folder = Folder::new("import-armatures");
     fs::create_dir_all(&folder.0).expect("a folder");
     let out = folder.0.join("scene.toml").display().to_string();
     let arguments = ["import", "-", "--out", &out];
     let words = stdout(&with_scene(&arguments, &pendulum("0.1 0.1 0.01")));
-    let counts = "MJCF: 1 body, 1 joint or coupling and 1 rotor for an armature";
+    let counts = "MJCF: 1 body, 1 joint or coupling with 1 armature (gyroscopic terms of rotors";
     assert!(words.starts_with(counts), "{words}");
+    let scene = fs::read_to_string(&out).expect("a scene");
+    assert!(scene.contains("\narmature = 0.1\n"), "{scene}");
     let checked = stdout(&pfaff(&["check", &out]));
-    assert!(checked.contains("2 bodies, 3 joints"), "{checked}");
+    assert!(checked.contains("1 body, 1 joint"), "{checked}");
 }
 
 /// No real body has moments of which one is above the sum of the others. The scene is written, so
@@ -49,7 +51,7 @@ fn a_scene_with_an_error_is_no_success() {
     assert_eq!(output.status.code(), Some(1));
     let document: Value = serde_json::from_str(&stdout(&output)).expect("one document");
     assert_eq!(document["ok"], false);
-    assert_eq!(document["rotors"], 1);
+    assert_eq!(document["armatures"], 1);
     assert!(document["scene_error"].is_string(), "{document}");
 }
 

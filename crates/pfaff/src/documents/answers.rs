@@ -137,8 +137,8 @@ pub struct ImportDocument<'a> {
     pub bodies: usize,
     /// Number of joints and couplings.
     pub joints: usize,
-    /// Number of rotors for armatures: each rotor is one more body with a joint and a coupling.
-    pub rotors: usize,
+    /// Number of joint coordinates with an armature.
+    pub armatures: usize,
     /// Statements about the scene as a whole.
     pub remarks: &'a [String],
     /// Elements of the file that the scene does not contain.
