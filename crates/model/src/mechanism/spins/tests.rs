@@ -1,7 +1,7 @@
 //! Tests which rotations influence nothing, on mechanisms whose rotations are known by inspection.
 
 use joints::space3::{self, BodyPointForce, Spherical};
-use joints::{Distance, Revolute, SpringDamper, TorsionSpringDamper};
+use joints::{Distance, Revolute, RevoluteAngleDrive, SpringDamper, TorsionSpringDamper};
 
 use crate::body::{Body, BodyRef, SpatialBody};
 use crate::description::{Description, SpatialDescription};
@@ -39,7 +39,8 @@ fn a_mass_on_a_rope_rotates_freely_if_the_rope_ends_at_its_centre() {
     assert_eq!(spins(&m), ["a", "b"]);
     assert!(m.mass().iter().all(|&m| m > 0.0), "{:?}", m.mass());
     // Without the energy ½·J·ω² of the rotations.
-    let energy = m.kinetic_energy(&[3.0, 0.0, 5.0, 0.0, 1.0, 7.0]);
+    let (q, _) = m.described_state();
+    let energy = m.kinetic_energy(&q, &[3.0, 0.0, 5.0, 0.0, 1.0, 7.0]);
     assert!((energy - 10.0).abs() < 1e-12, "{energy}");
     assert_eq!(spins(&rope([0.0, 1e-6])), ["a"]);
 }
@@ -65,6 +66,15 @@ fn joints_and_forces_that_turn_with_a_body_depend_on_its_rotation() {
     d.joint("hinge", &[GROUND, wheel], hinge);
     // A hinge at the centre of mass allows any rotation.
     assert_eq!(spins(&Mechanism::build(&d).expect("builds")), ["wheel"]);
+    // A rotor at the hinge gives the rotation an inertia.
+    let mut with_rotor = d.clone();
+    let drive = RevoluteAngleDrive::new([0.0; 2], [0.0; 2]);
+    with_rotor.armature("hinge", &[GROUND, wheel], drive, 0.3);
+    let m = Mechanism::build(&with_rotor).expect("builds");
+    assert!(spins(&m).is_empty());
+    let (q, _) = m.described_state();
+    let energy = m.kinetic_energy(&q, &[0.0, 0.0, 2.0]);
+    assert!((energy - 0.6).abs() < 1e-15, "{energy}");
     d.force(
         "spring",
         &[GROUND, wheel],
