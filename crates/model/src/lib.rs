@@ -96,8 +96,8 @@ pub use function::{Function, FunctionError};
 pub use law::Law;
 pub use mechanism::{
     AppliedForce, AppliedForces, BuildError, Buildable, DerivativeGap, Derivatives, ForceMeasure,
-    ForceWithoutDerivatives, Load, Loads, Mechanism, Part, Places, Push, Sparse, UndefinedForce,
-    Work,
+    ForceWithoutDerivatives, InertiaAt, JointArmature, Load, Loads, Mechanism, Part, Places, Push,
+    Sparse, UndefinedForce, Work,
 };
 /// The version of `nalgebra` for the poses, vectors and tensors of bodies in space.
 pub use nalgebra;

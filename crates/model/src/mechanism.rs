@@ -30,7 +30,7 @@ use crate::space::{Space, SpaceKind, in_space};
 use crate::system::{Layout, Scratch};
 use crate::tolerance::Tolerance;
 
-pub use armature::{ArmatureLoad, InertiaAt};
+pub use armature::{InertiaAt, JointArmature};
 pub use build::Buildable;
 pub use build_error::BuildError;
 pub use derivatives::{Derivatives, Sparse};
@@ -275,8 +275,8 @@ impl Mechanism {
         let bodies = terms.map(|((m, a), (w, v))| (m * a - w) * v).sum();
         let armatures = self.elements.armatures.iter().enumerate();
         armatures.fold(bodies, |sum, (k, armature)| {
-            let acceleration = s.added.times(k, a) - s.added_gamma[k];
-            sum + armature.inertia * s.added.times(k, v) * acceleration
+            let acceleration = s.armatures.added.times(k, a) - s.armatures.gamma[k];
+            sum + armature.inertia * s.armatures.added.times(k, v) * acceleration
         })
     }
 

@@ -325,12 +325,24 @@ pub struct Scratch {
     pub(crate) spins: Vec<[f64; 3]>,
     /// Time at which the functions of time were evaluated; initially NaN.
     pub(crate) jets_at: f64,
+    pub(crate) buffers: KernelBuffers,
+    pub(crate) armatures: ArmatureRows,
+}
+
+/// Storage for results of kernels.
+#[derive(Clone, Debug)]
+pub(crate) struct KernelBuffers {
     /// Results of one kernel.
     pub(crate) block: Vec<f64>,
     /// Values of the rows of one constraint.
     pub(crate) own_rows: Vec<f64>,
+}
+
+/// Results of the kernels of armatures.
+#[derive(Clone, Debug)]
+pub(crate) struct ArmatureRows {
     /// The rows g of M, one for each armature.
     pub(crate) added: AddedMass,
     /// γ of each armature, with s̈ = g·v̇ − γ.
-    pub(crate) added_gamma: Vec<f64>,
+    pub(crate) gamma: Vec<f64>,
 }

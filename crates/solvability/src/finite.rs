@@ -13,8 +13,7 @@
 //! equations of second order contain further terms. The result for such bodies is undecided if a
 //! freedom is restricted.
 
-use model::mechanism::InertiaAt;
-use model::{ConstraintId, Mechanism, System};
+use model::{ConstraintId, InertiaAt, Mechanism, System};
 use rank::RankDecision;
 
 use crate::choices::{Solution, solution};

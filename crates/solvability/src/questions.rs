@@ -59,7 +59,7 @@ pub use eliminations::EliminationError;
 /// ```
 pub struct Questions<'a> {
     mechanism: &'a Mechanism,
-    q: Vec<f64>,
+    pub(crate) q: Vec<f64>,
     analysis: Arc<Analysis>,
     /// Configuration of each part, created at the first request.
     configurations: Vec<OnceLock<Configuration<'a>>>,
@@ -92,10 +92,6 @@ impl<'a> Questions<'a> {
 
     pub(crate) fn mechanism(&self) -> &'a Mechanism {
         self.mechanism
-    }
-
-    pub(crate) fn q(&self) -> &[f64] {
-        &self.q
     }
 
     pub(crate) fn parts(&self) -> &[PartAnalysis] {

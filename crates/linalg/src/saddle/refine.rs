@@ -196,7 +196,7 @@ impl KeptRowSaddle {
             let terms = columns.iter().zip(values);
             let rate = terms.fold(Dd::ZERO, |sum, (&j, g)| sum + a.x[j] * *g);
             for (&j, g) in columns.iter().zip(values) {
-                force[j] = force[j] - rate * inertia * *g;
+                force[j] -= rate * inertia * *g;
             }
         }
         refinement.gamma.fill(0.0);

@@ -49,7 +49,31 @@ impl SchurSaddle {
         self.factor_extended(floor, c, mass.into())
     }
 
-    pub(super) fn factor_diagonal(
+    /// Factors the extended equations.
+    fn factor_extended(
+        &mut self,
+        floor: f64,
+        c: &SparseMatrix,
+        mass: MassMatrix<'_>,
+    ) -> Result<(), SaddleError> {
+        let Some(mut system) = self.extended.take() else {
+            let found = mass.added().n_rows();
+            return match found {
+                0 => self.factor_diagonal(floor, c, mass.diagonal()),
+                _ => Err(SaddleError::Length {
+                    argument: "rows of the mass matrix",
+                    found,
+                    expected: 0,
+                }),
+            };
+        };
+        let taken = system.take(c, mass);
+        let factored = taken.and_then(|()| self.factor_diagonal(floor, &system.c, &system.mass));
+        self.extended = Some(system);
+        factored
+    }
+
+    fn factor_diagonal(
         &mut self,
         floor: f64,
         c: &SparseMatrix,

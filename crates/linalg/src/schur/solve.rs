@@ -1,5 +1,6 @@
 //! Solution with the factors, and correction of the rounding errors of the solution.
 
+use super::added::{ExtendedSystem, begin};
 use super::tiles::{
     Lane, SIDE, Tile, add_times, add_transposed_times, by_width, dot, of_columns, subtract_times,
     sum, times_and_size, triangle,
@@ -128,6 +129,70 @@ impl SchurSaddle {
         } else {
             Err(first_non_finite([("f", f), ("a", a)]))
         }
+    }
+
+    /// Solves the extended equations.
+    fn solve_extended(
+        &mut self,
+        (f, gamma): (&[f64], &[f64]),
+        a: &mut [f64],
+        lambda: &mut [f64],
+    ) -> Result<bool, SaddleError> {
+        let Some(mut system) = self.extended.take() else {
+            return Ok(false);
+        };
+        let ExtendedSystem {
+            c,
+            f: of_all,
+            gamma: of_rows,
+            a: motion,
+            lambda: multipliers,
+            ..
+        } = &mut *system;
+        let copied = begin(of_all, f, "f").and_then(|()| begin(of_rows, gamma, "gamma"));
+        let solved = copied
+            .and_then(|()| self.solve(c, of_all, of_rows, motion, multipliers))
+            .map(|()| {
+                a.copy_from_slice(&motion[..a.len()]);
+                lambda.copy_from_slice(&multipliers[..lambda.len()]);
+                true
+            });
+        self.extended = Some(system);
+        solved
+    }
+
+    /// Computes the multipliers of the extended equations for a motion.
+    fn multipliers_extended(
+        &mut self,
+        f: &[f64],
+        a: &[f64],
+        lambda: &mut [f64],
+    ) -> Result<bool, SaddleError> {
+        let Some(mut system) = self.extended.take() else {
+            return Ok(false);
+        };
+        let ExtendedSystem {
+            c,
+            f: of_all,
+            a: motion,
+            lambda: multipliers,
+            ..
+        } = &mut *system;
+        let copied = begin(of_all, f, "f").and_then(|()| begin(motion, a, "a"));
+        let found = copied
+            .and_then(|()| {
+                for (k, i) in (self.structure.rows_of_c..c.nrows()).enumerate() {
+                    let rate = c.entries(i).filter(|(j, _)| *j < a.len());
+                    motion[a.len() + k] = rate.map(|(j, g)| g * a[j]).sum();
+                }
+                self.multipliers(c, of_all, motion, multipliers)
+            })
+            .map(|()| {
+                lambda.copy_from_slice(&multipliers[..lambda.len()]);
+                true
+            });
+        self.extended = Some(system);
+        found
     }
 
     fn check(

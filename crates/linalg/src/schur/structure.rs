@@ -12,8 +12,9 @@
 
 use std::ops::Range;
 
+use super::added::extended;
 use super::tiles::{Lane, SIDE, diagonal, lanes, triangle};
-use crate::{EliminationTree, SparseMatrix};
+use crate::{AddedMass, EliminationTree, SparseMatrix};
 
 /// The pattern of `S = C·M⁻¹·Cᵀ` and of the factor of S.
 ///
@@ -180,6 +181,20 @@ impl SchurStructure {
         let nodes = Nodes::new(c, &blocks);
         let tree = Tree::new(&nodes);
         tree.into_structure(c, &blocks, &nodes)
+    }
+
+    /// Works like [`SchurStructure::new`], for a mass matrix with these rows. The values of the
+    /// rows are not used.
+    #[must_use]
+    pub fn with_added(c: &SparseMatrix, blocks: &[Range<usize>], added: &AddedMass) -> Self {
+        let Some(extended) = extended(c, added) else {
+            return Self::new(c, blocks);
+        };
+        Self {
+            rows_of_c: c.nrows(),
+            extended: Some(Box::new(extended.clone())),
+            ..Self::new(&extended, blocks)
+        }
     }
 
     /// Returns the number of coordinates n.

@@ -30,11 +30,14 @@ pub(crate) struct PlacedArmature {
 
 /// The values that replace a motion in the kernels of a drive. For an angle in space they are the
 /// cosine and the sine of the present angle, so that the row of the drive is zero.
-type Motion = [[f64; 3]; 2];
+type MotionValues = [[f64; 3]; 2];
 
-fn motion<S: Kinematics>(element: &dyn joints::ConstraintKernels<S>, x: &[PoseOf<S>]) -> Motion {
+fn motion<S: Kinematics>(
+    element: &dyn joints::ConstraintKernels<S>,
+    x: &[PoseOf<S>],
+) -> MotionValues {
     if !element.spec().turning {
-        return Motion::default();
+        return MotionValues::default();
     }
     let still = [(); MOST_BODIES].map(|()| S::twist(&[0.0; 6]));
     let [cos, sin, _] = element.turned(0, x, &still[..x.len().min(MOST_BODIES)]);

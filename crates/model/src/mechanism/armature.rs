@@ -49,7 +49,7 @@ impl InertiaAt<'_> {
 
 /// An armature of a mechanism: the inertia of a joint coordinate.
 #[derive(Clone, Copy, Debug)]
-pub struct ArmatureLoad<'m> {
+pub struct JointArmature<'m> {
     /// Name of the joint.
     pub joint: &'m str,
     /// Name of the joint coordinate.
@@ -62,7 +62,7 @@ pub struct ArmatureLoad<'m> {
     pub is_angle: bool,
 }
 
-impl std::fmt::Display for ArmatureLoad<'_> {
+impl std::fmt::Display for JointArmature<'_> {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         write!(f, "armature of {}.{}", self.joint, self.measure)
     }
@@ -88,8 +88,8 @@ impl Mechanism {
 
     /// Returns the armatures of joints, in the order of their rows of M. An armature that is zero
     /// is not included.
-    pub fn armatures(&self) -> impl Iterator<Item = ArmatureLoad<'_>> {
-        self.elements.armatures.iter().map(|of| ArmatureLoad {
+    pub fn armatures(&self) -> impl Iterator<Item = JointArmature<'_>> {
+        self.elements.armatures.iter().map(|of| JointArmature {
             joint: &of.joint,
             measure: of.measure,
             bodies: &of.site.bodies,

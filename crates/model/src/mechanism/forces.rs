@@ -188,7 +188,7 @@ impl<'m> AppliedForces<'m> {
                 let mut q = vec![0.0; s.force.len()];
                 force
                     .with_unit_law()
-                    .add_q((&s.slots, &mut s.block), 1.0, &mut q);
+                    .add_q((&s.slots, &mut s.buffers.block), 1.0, &mut q);
                 all.push(Push {
                     name: &force.name,
                     function,
@@ -203,7 +203,11 @@ impl<'m> AppliedForces<'m> {
                     let mut q = vec![0.0; s.force.len()];
                     for sign in [1.0, -1.0] {
                         s.slots.jets[at][0] = value + sign * step;
-                        force.add_q((&s.slots, &mut s.block), sign / (2.0 * step), &mut q);
+                        force.add_q(
+                            (&s.slots, &mut s.buffers.block),
+                            sign / (2.0 * step),
+                            &mut q,
+                        );
                     }
                     s.slots.jets[at][0] = value;
                     all.push(Push {
@@ -247,8 +251,8 @@ impl<'m> AppliedForces<'m> {
             return Some(UndefinedForce::Controller { why });
         }
         self.0.elements.forces.iter().find_map(|force| {
-            force.q(&s.slots, &mut s.block);
-            let mut values = s.block[..force.columns.len()].iter();
+            force.q(&s.slots, &mut s.buffers.block);
+            let mut values = s.buffers.block[..force.columns.len()].iter();
             if values.all(|value| value.is_finite()) {
                 return None;
             }
@@ -280,7 +284,7 @@ impl<'m> AppliedForces<'m> {
         let n = s.force.len();
         self.0.elements.forces.iter().map(move |force| {
             let mut q = vec![0.0; n];
-            force.add_q((&s.slots, &mut s.block), 1.0, &mut q);
+            force.add_q((&s.slots, &mut s.buffers.block), 1.0, &mut q);
             (force.name.as_str(), q)
         })
     }

@@ -9,7 +9,7 @@ use linalg::{AddedMass, MassMatrix};
 use super::Mechanism;
 use crate::element::{Bodies, Slots};
 use crate::space::{self, Space, SpaceKind};
-use crate::system::{Layout, Scratch, System};
+use crate::system::{ArmatureRows, KernelBuffers, Layout, Scratch, System};
 
 impl System for Mechanism {
     fn layout(&self) -> &Layout {
@@ -21,7 +21,7 @@ impl System for Mechanism {
     }
 
     fn inertia<'s>(&'s self, s: &'s Scratch) -> MassMatrix<'s> {
-        MassMatrix::new(&self.mass, &s.added)
+        MassMatrix::new(&self.mass, &s.armatures.added)
     }
 
     fn scratch(&self) -> Scratch {
@@ -45,13 +45,19 @@ impl System for Mechanism {
                 _ => Vec::new(),
             },
             jets_at: f64::NAN,
-            block: vec![0.0; self.elements.block],
-            own_rows: Vec::new(),
-            added: AddedMass::default(),
-            added_gamma: vec![0.0; armatures.len()],
+            buffers: KernelBuffers {
+                block: vec![0.0; self.elements.block],
+                own_rows: Vec::new(),
+            },
+            armatures: ArmatureRows {
+                added: AddedMass::default(),
+                gamma: vec![0.0; armatures.len()],
+            },
         };
         for armature in armatures {
-            s.added.push(armature.inertia, &armature.columns());
+            s.armatures
+                .added
+                .push(armature.inertia, &armature.columns());
         }
         s.slots.commands = self.commands();
         s
@@ -98,7 +104,7 @@ impl System for Mechanism {
         for c in &self.elements.constraints {
             if c.depends_on_time() {
                 c.rows
-                    .write(&mut s.b, &mut s.own_rows, |b| c.b(&s.slots, b));
+                    .write(&mut s.b, &mut s.buffers.own_rows, |b| c.b(&s.slots, b));
             }
         }
     }
@@ -116,13 +122,14 @@ impl System for Mechanism {
 
     fn gamma(&self, s: &mut Scratch) {
         for c in &self.elements.constraints {
-            c.rows.write(&mut s.gamma, &mut s.own_rows, |gamma| {
-                if c.has_gamma() {
-                    c.gamma(&s.slots, gamma);
-                } else {
-                    gamma.fill(0.0);
-                }
-            });
+            c.rows
+                .write(&mut s.gamma, &mut s.buffers.own_rows, |gamma| {
+                    if c.has_gamma() {
+                        c.gamma(&s.slots, gamma);
+                    } else {
+                        gamma.fill(0.0);
+                    }
+                });
         }
     }
 
@@ -137,8 +144,8 @@ impl System for Mechanism {
             }
         }
         for force in &self.elements.forces {
-            force.q(&s.slots, &mut s.block);
-            for (column, value) in force.columns.iter().zip(&s.block) {
+            force.q(&s.slots, &mut s.buffers.block);
+            for (column, value) in force.columns.iter().zip(&s.buffers.block) {
                 if let Some(column) = column {
                     s.force[*column] += value;
                 }
@@ -147,8 +154,8 @@ impl System for Mechanism {
         self.add_mass(s);
         for (k, armature) in self.elements.armatures.iter().enumerate() {
             let gamma = armature.gamma(&s.slots);
-            s.added_gamma[k] = gamma;
-            let (inertia, columns, values) = s.added.row(k);
+            s.armatures.gamma[k] = gamma;
+            let (inertia, columns, values) = s.armatures.added.row(k);
             for (&column, g) in columns.iter().zip(values) {
                 s.force[column] += g * (inertia * gamma);
             }
@@ -178,7 +185,7 @@ impl Mechanism {
     /// Computes the rows of M.
     fn add_mass(&self, s: &mut Scratch) {
         for (k, armature) in self.elements.armatures.iter().enumerate() {
-            armature.gradient(&s.slots, s.added.values_mut(k));
+            armature.gradient(&s.slots, s.armatures.added.values_mut(k));
         }
     }
 }

@@ -95,7 +95,7 @@ impl Mechanism {
         Loads {
             mechanism: self,
             s: self.scratch(),
-            block: vec![0.0; self.scratch().block.len()],
+            block: vec![0.0; self.scratch().buffers.block.len()],
         }
     }
 }

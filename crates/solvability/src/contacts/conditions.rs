@@ -354,7 +354,7 @@ fn cluster<'s>(
     // Loads that vanish are rounding errors of the other loads, and of the forces that accelerate
     // the bodies.
     let mut inertia = vec![0.0; solution.acceleration.len()];
-    let matrix = questions.mechanism().inertia_at(questions.q());
+    let matrix = questions.mechanism().inertia_at(&questions.q);
     matrix.add_sizes(&solution.acceleration, &mut inertia);
     let mut size = linalg::kernels::max_abs(&inertia);
     for &k in parts {
