@@ -420,7 +420,6 @@ joint = [
         let mut armatures = vec![("A", "angle", 0.3), ("C", "angle", 0.8)];
         armatures.extend(measures.iter().zip([0.9, 2.2]).map(|(m, a)| ("B", *m, a)));
         armatures.sort_by_key(|(joint, ..)| *joint);
-        println!("{kind}");
         compare(&text, &armatures, 0.4);
     }
 }

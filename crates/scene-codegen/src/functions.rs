@@ -386,9 +386,27 @@ fn shares(e: &mut Equations, factored: &FactoredRows) -> Vec<Value> {
 
 #[cfg(test)]
 mod tests {
-    use model::{Body, Description, Wrench};
+    use model::{Body, BodyRef, Description, Wrench};
 
     use super::*;
+
+    #[test]
+    fn armatures_are_refused_by_name() {
+        let mut d = Description::new("arm");
+        let arm = d.body(Body::new("arm", 1.0, 1.0));
+        let (bodies, o) = ([BodyRef::Ground, arm], [0.0; 2]);
+        d.joint("pin", &bodies, joints::Revolute { s_i: o, s_j: o });
+        d.armature("pin", &bodies, joints::RevoluteAngleDrive::new(o, o), 0.0);
+        let none = Mechanism::build(&d).expect("builds");
+        assert!(recordable(&none).is_ok());
+        d.armatures[0].inertia = 0.5;
+        let armed = Mechanism::build(&d).expect("builds");
+        let refused = recordable(&armed).expect_err("it cannot be recorded");
+        assert_eq!(
+            refused.to_string(),
+            "joint `pin` has an armature, which generated code does not support; run this scene interpreted"
+        );
+    }
 
     #[test]
     fn forces_that_call_a_function_are_refused_by_name() {

@@ -11,12 +11,13 @@ use crate::key::{Interval, Key, Takes};
 use crate::mistake::Mistake;
 use crate::nearest::list;
 use crate::space::SceneSpace;
+use crate::table::Table;
 
 const NUMBER: &str = "a number ≥ 0";
 const TABLE: &str = "a table with a number ≥ 0 for each joint coordinate";
 
 /// The key of a joint with one joint coordinate.
-pub(crate) const ARMATURE: Key =
+const ARMATURE: Key =
     Key::optional("armature", NUMBER, Takes::Number(Interval::NotNegative)).doc(
         "Inertia a of a rotor that rotates with the joint coordinate s, for example of a geared motor (its own inertia times the square of the gear ratio): the kinetic energy contains ½·a·ṡ²; kg·m² for an angle, kg for a displacement. Gyroscopic terms of the rotor are neglected",
     );
@@ -39,6 +40,13 @@ pub(crate) fn key(spec: &ConstraintSpec) -> Option<Key> {
         1 => Some(ARMATURE),
         _ => Some(ARMATURES),
     }
+}
+
+/// Returns the value of the key. A joint without joint coordinates does not have the key, but the
+/// value is returned nevertheless, because [`read`] explains the error.
+pub(crate) fn field<'t>(table: &mut Table<'t>, spec: &ConstraintSpec) -> Option<Field<'t>> {
+    let is_read = key(spec).is_some() || table.has(ARMATURE.name);
+    is_read.then(|| table.optional(&ARMATURE)).flatten()
 }
 
 /// Reads the armatures of a joint from the value of its key.

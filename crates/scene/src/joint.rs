@@ -4,7 +4,7 @@
 use model::{ContactLimits, Joint};
 
 use crate::active;
-use crate::armature::{self, ARMATURE};
+use crate::armature;
 use crate::bodies::Bodies;
 use crate::connection;
 use crate::contact;
@@ -96,8 +96,8 @@ fn one<'r, S: SceneSpace>(
             stiffness::read(&mut table, name, None, bodies);
             if let [definition, ..] = definitions[..] {
                 contact::read(&mut table, definition.spec, &[]);
+                armature::field(&mut table, definition.spec);
             }
-            table.optional(&ARMATURE);
             element::end(table, name, read.is_active);
             return read;
         };
@@ -116,7 +116,7 @@ fn one<'r, S: SceneSpace>(
         _ => None,
     };
     let armature = match read.kind {
-        JointKind::Defined(_) => table.optional(&ARMATURE),
+        JointKind::Defined(definition) => armature::field(&mut table, definition.spec),
         JointKind::Unknown | JointKind::Coupling => None,
     };
     let entry = element::end(table, name, read.is_active);

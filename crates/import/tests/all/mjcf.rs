@@ -7,7 +7,7 @@ use super::{first, import_text, imported, options_of, read, refused, text_of, va
 
 /// Number of bodies, and number of joints and couplings of each file, counted by hand. Intermediate
 /// bodies between several joints count as bodies, and bodies without joints are merged.
-const FILES: [(&str, [usize; 2]); 8] = [
+const FILES: [(&str, [usize; 2]); 9] = [
     ("mjcf/pendulum.xml", [2, 2]),
     ("mjcf/free-and-ball.xml", [3, 2]),
     // The plate has 3 joints, the cross has 2 hinges at right angles, and the wrist has 3 hinges
@@ -18,6 +18,8 @@ const FILES: [(&str, [usize; 2]); 8] = [
     ("mjcf/couplings.xml", [6, 11]),
     ("mjcf/bounds.xml", [2, 2]),
     ("mjcf/included.xml", [3, 3]),
+    // Each body has one or two joints, and the last has three hinges.
+    ("mjcf/armatures.xml", [8, 8]),
 ];
 
 #[test]
@@ -105,6 +107,27 @@ fn springs_dampers_and_armatures() {
     let free = of("force", "second hinge spring", "free_angle").expect("a spring");
     assert!((free.parse::<f64>().expect("a number") + 0.3).abs() < 1e-15);
     assert_eq!(of("joint", "hinge", "armature").as_deref(), Some("0.05"));
+}
+
+/// A joint of the scene may replace two joints of the file, each with its armature.
+#[test]
+fn armatures_belong_to_joint_coordinates() {
+    let imported = imported("mjcf/armatures.xml");
+    assert_eq!(imported.armatures, 10);
+    let given: Vec<&str> = { imported.scene.lines() }
+        .filter_map(|line| line.strip_prefix("armature = "))
+        .collect();
+    let expected = [
+        "2.5",
+        "0.7",
+        "{ first = 1.3, second = 0.2 }",
+        "0.9",
+        "{ displacement = 1.7, angle = 0.05 }",
+        "0.1",
+        "0.2",
+        "0.3",
+    ];
+    assert_eq!(given, expected);
 }
 
 /// A box of 0.2 × 0.4 × 0.1 m with 1000 kg/m³ has the mass 8 kg and Jxx = m·(0.4² + 0.1²)/12 in its

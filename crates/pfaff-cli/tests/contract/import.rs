@@ -82,7 +82,7 @@ fn actuators_become_drives() {
     ];
     stdout(&with_scene(&arguments, &text));
     let checked = stdout(&pfaff(&["check", &out]));
-    assert!(checked.contains("4 joints and drives"), "{checked}");
+    assert!(checked.contains("2 joints and drives"), "{checked}");
 }
 
 /// The other model of the file is reported.

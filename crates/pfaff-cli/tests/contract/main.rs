@@ -4,6 +4,7 @@
 mod advice;
 mod agreement;
 mod analyze;
+mod armature;
 mod bad_input;
 mod book;
 mod bounds_of_run;

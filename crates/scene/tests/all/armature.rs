@@ -76,7 +76,7 @@ fn bare_numbers_have_the_units_of_the_scene() {
 }
 
 fn errors(text: &str) -> Vec<Diagnostic> {
-    read(&format!("{BODIES}{text}")).err().expect("an error")
+    read(&format!("{BODIES}{text}")).expect_err("an error")
 }
 
 #[test]
@@ -125,7 +125,7 @@ fn errors_have_positions_and_advice() {
     let help = all[0].help.clone().expect("advice");
     assert_eq!(
         help,
-        "write `armature = { displacement = … }`; its joint coordinates are `displacement` and `angle`"
+        "write `armature = { displacement = … }`; its joint coordinates are `displacement`, `angle`"
     );
     let slot = "at = [0, 0]\naxis = [1, 0]\narmature = { lenght = 1 }";
     let all = errors(&joint("pin-in-slot", slot));

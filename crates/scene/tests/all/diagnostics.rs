@@ -654,7 +654,7 @@ fn help_lists_what_there_is() {
         (
             "at = [1.0, 0.0]",
             "at = [1.0, 0.0]\naxle = [1, 0]",
-            "its keys are `name`, `type`, `bodies`, `at`, `points`, `tolerance`, `centre_of_stiffness`, `active`",
+            "its keys are `name`, `type`, `bodies`, `at`, `points`, `tolerance`, `centre_of_stiffness`, `armature`, `active`",
         ),
     ] {
         let problems = read(&SCENE.replace(part, fault)).expect_err(fault);
