@@ -263,8 +263,41 @@ impl LevelValues<'_> {
     fn contradictions(&self, mechanism: &Mechanism, time: f64) -> Vec<Contradiction> {
         match self.decision.redundancy {
             0 => Vec::new(),
+            _ if self.agree() => Vec::new(),
             _ => self.among(rank::short_circuits(self.decision), mechanism, time),
         }
+    }
+
+    /// Returns whether the dependencies of the redundant rows show that no circuit contradicts. In
+    /// equilibrated rows, a circuit is the sum of these dependencies with its own coefficients at
+    /// the redundant rows as weights. Therefore the sum over a circuit is at most its largest
+    /// coefficient times the sum over all dependencies. The tolerance of the circuit is at least
+    /// its largest coefficient times the noise of the terms in one of its redundant rows. No
+    /// circuit has to be known for this comparison.
+    fn agree(&self) -> bool {
+        let RankDecision {
+            kept,
+            dropped,
+            scaling,
+            coefficients,
+            ..
+        } = self.decision;
+        let value = |i: usize| scaling.row_factor(i) * self.values[i];
+        let own: Vec<f64> = kept.iter().map(|&i| value(i)).collect();
+        let sums = dropped.iter().enumerate().map(|(j, &row)| {
+            let implied: f64 = coefficients
+                .row(j)
+                .iter()
+                .zip(&own)
+                .map(|(t, x)| t * x)
+                .sum();
+            (value(row) - implied).abs()
+        });
+        let sum: f64 = sums.sum();
+        let terms = |&row: &usize| scaling.row_factor(row) * (self.scale)(row);
+        let noise = rank::support_tolerance(self.decision);
+        // NaN values show nothing.
+        sum == 0.0 || dropped.iter().all(|row| sum <= noise * terms(row))
     }
 
     /// Returns the contradictions of the given circuits.

@@ -330,18 +330,22 @@ impl LevelReduction {
     }
 }
 
-/// Returns A − T·B.
+/// Returns A − T·B. Rows of B have few entries.
 fn residual(a: &DdMatrix, t: &DdMatrix, b: &DdMatrix) -> DdMatrix {
+    let entries = (0..b.nrows()).map(|k| {
+        let row = b.row(k).iter().copied().enumerate();
+        row.filter(|(_, b)| *b != Dd::ZERO).collect()
+    });
+    let entries: Vec<Vec<(usize, Dd)>> = entries.collect();
     let mut out = a.clone();
     for j in 0..a.nrows() {
-        for (k, &t_jk) in t.row(j).iter().enumerate() {
+        let out = out.row_mut(j);
+        for (&t_jk, b) in t.row(j).iter().zip(&entries) {
             if t_jk == Dd::ZERO {
                 continue;
             }
-            for (x, &b) in out.row_mut(j).iter_mut().zip(b.row(k)) {
-                if b != Dd::ZERO {
-                    *x -= t_jk * b;
-                }
+            for &(i, b) in b {
+                out[i] -= t_jk * b;
             }
         }
     }
