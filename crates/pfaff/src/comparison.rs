@@ -5,7 +5,9 @@
 //!
 //! All solutions at an instant are `λ + Z·y`. The vector λ is the solution of the run. The matrix Z
 //! belongs to the configuration at that instant, so unique components are recognised at every
-//! instant and not only at the start. If the rank is undecided, no comparison is made.
+//! instant and not only at the start. The rank is decided at the first frame. The decision is
+//! carried from frame to frame and is made again at frames at which its rows do not show the rank.
+//! If the rank is undecided, no comparison is made.
 
 #[cfg(test)]
 mod tests;
@@ -17,8 +19,8 @@ use linalg::{Matrix, PivotedQr};
 use model::{Mechanism, Part, RowRanges, Scratch, SpaceKind, System};
 use rank::{RankDecision, deletions, dependencies};
 use report::{Frame, Recording};
+use solvability::Configuration;
 use solvability::parts::parts;
-use solvability::{Configuration, NormWeights};
 
 /// Largest number of rows of a set whose choices are compared.
 const ROWS_MAX: usize = 150;
@@ -100,37 +102,28 @@ pub(crate) fn compare(
 /// Joints on common cycles, some of whose reactions are not unique.
 struct Set<'a> {
     part: &'a Part,
+    /// The first frame, with its decided rank.
+    first: Configuration<'a>,
     eliminations: Vec<Vec<usize>>,
 }
 
 impl<'a> Set<'a> {
     /// Returns `None` if the multipliers of the run are unknown, or if the rank is undecided.
     fn new(part: &'a Part, recording: &Recording) -> Option<Self> {
-        let first = recording.frames.first()?;
-        let known = |&i: &usize| first.multipliers.get(i).is_some_and(|x| x.is_finite());
+        let frame = recording.frames.first()?;
+        let known = |&i: &usize| frame.multipliers.get(i).is_some_and(|x| x.is_finite());
         if !part.places.rows.iter().all(known) {
             return None;
         }
-        let mut set = Self {
+        let q = coordinates(part, frame);
+        let first = Configuration::decided(&part.mechanism, (frame.t, &q), None).ok()?;
+        let decision = first.solvability().decision();
+        let eliminations = decision.is_decided().then(|| eliminations(decision))?;
+        Some(Self {
             part,
-            eliminations: Vec::new(),
-        };
-        set.eliminations = {
-            let decided = set.decided(&set.coordinates(first), first)?;
-            let decision = decided.solvability().decision();
-            decision.is_decided().then(|| eliminations(decision))?
-        };
-        Some(set)
-    }
-
-    fn coordinates(&self, frame: &Frame) -> Vec<f64> {
-        let places = self.part.places.coordinates.iter();
-        places.map(|&j| frame.q[j]).collect()
-    }
-
-    /// The configuration of a frame; `None` if C is not finite.
-    fn decided(&self, q: &[f64], frame: &Frame) -> Option<Configuration<'_>> {
-        Configuration::decided(&self.part.mechanism, frame.t, q).ok()
+            first,
+            eliminations,
+        })
     }
 
     fn compare(
@@ -158,8 +151,14 @@ impl<'a> Set<'a> {
             })
             .collect();
         let mut freedom = Vec::with_capacity(recording.frames.len());
+        let mut last = None;
         for frame in &recording.frames {
-            let instant = self.instant(frame);
+            // The configuration of a frame does not exist if C is not finite.
+            let q = coordinates(self.part, frame);
+            let near = last.as_ref().unwrap_or(&self.first);
+            let mechanism = &self.part.mechanism;
+            last = Configuration::decided(mechanism, (frame.t, &q), Some(near)).ok();
+            let instant = self.instant(frame, last.as_ref());
             let mut values = instant.values.into_iter();
             for choice in &mut choices {
                 let of_choice = values.next();
@@ -201,20 +200,21 @@ impl<'a> Set<'a> {
         vec![vec![f64::NAN; components]; self.part.places.groups.len()]
     }
 
-    fn instant(&self, frame: &Frame) -> Instant {
+    fn instant(&self, frame: &Frame, configuration: Option<&Configuration<'_>>) -> Instant {
         let of_part = |all: &[f64]| -> Vec<f64> {
             let rows = self.part.places.rows.iter();
             rows.map(|&i| all[i]).collect()
         };
         let lambda = of_part(&frame.multipliers);
-        let q = self.coordinates(frame);
         let mechanism = &self.part.mechanism;
-        let unknown = |count| Instant {
-            values: Vec::new(),
-            freedom: vec![Freedom::UNKNOWN; count],
-        };
-        let Some(configuration) = self.decided(&q, frame) else {
-            return unknown(mechanism.layout().groups.len());
+        let n = mechanism.layout().groups.len();
+        let decided = configuration
+            .filter(|configuration| configuration.solvability().decision().is_decided());
+        let Some(configuration) = decided else {
+            return Instant {
+                values: Vec::new(),
+                freedom: vec![Freedom::UNKNOWN; n],
+            };
         };
         let (s, decision) = (
             configuration.scratch(),
@@ -232,10 +232,6 @@ impl<'a> Set<'a> {
                 each.map(|lambda| self.wrenches(&maps, &lambda)).collect()
             }
         };
-        let n = maps.len();
-        if !decision.is_decided() {
-            return unknown(n);
-        }
         if decision.redundancy == 0 {
             return Instant {
                 values: vec![
@@ -251,15 +247,11 @@ impl<'a> Set<'a> {
             .zip(&mechanism.layout().groups)
             .map(|(w, g)| product(w, &z, &g.rows))
             .collect();
-        // There is no solution of least norm if a free direction does not change the wrenches on
-        // the first bodies.
-        let least = configuration.least_norm(&lambda, NormWeights::NEWTON_METRE);
-        let least = least.ok();
-        let without = self.eliminations.iter().map(|rows| {
-            let is_firm = rows.len() == z.ncols() && firmness(&z, rows) >= FIRM;
-            is_firm.then(|| configuration.eliminated_unchecked(&lambda, rows))
-        });
-        let others = std::iter::once(least).chain(without);
+        let least = least_norm(&free, &self.wrenches(&maps, &lambda));
+        let least = least.map(|y| moved(&lambda, &z, &y));
+        let without = self.eliminations.iter();
+        let others =
+            std::iter::once(least).chain(without.map(|rows| without_load(&lambda, &z, rows)));
         let others = others.map(|lambda| lambda.map(|lambda| self.wrenches(&maps, &lambda)));
         let others: Vec<Option<Vec<Vec<f64>>>> = others.collect();
         // A curve of a single choice would look like a unique number.
@@ -400,10 +392,78 @@ fn eliminations(decision: &RankDecision) -> Vec<Vec<usize>> {
 
 /// Smallest pivot of Z_D relative to its largest entry.
 fn firmness(z: &Matrix, rows: &[usize]) -> f64 {
-    let block = z.select_rows(rows);
-    let qr = PivotedQr::of_columns(&block);
+    relative_pivot(z, &PivotedQr::of_columns(&z.select_rows(rows)))
+}
+
+fn relative_pivot(z: &Matrix, qr: &PivotedQr) -> f64 {
     let smallest = qr.r_diagonal().map(f64::abs).fold(f64::INFINITY, f64::min);
     smallest / z.max_abs().max(f64::MIN_POSITIVE)
+}
+
+/// Coordinates of the bodies of a part at a frame.
+fn coordinates(part: &Part, frame: &Frame) -> Vec<f64> {
+    let places = part.places.coordinates.iter();
+    places.map(|&j| frame.q[j]).collect()
+}
+
+/// The multipliers `λ + Z·y`.
+fn moved(lambda: &[f64], z: &Matrix, y: &[f64]) -> Vec<f64> {
+    let change = z.times(y);
+    lambda.iter().zip(change).map(|(l, c)| l + c).collect()
+}
+
+/// Returns the y for which the sum of the squares of all wrenches `w + W·Z·y` is smallest (N, N·m).
+/// There is no such y if a free direction does not change the wrenches on the first bodies.
+fn least_norm(free: &[Matrix], wrenches: &[Vec<f64>]) -> Option<Vec<f64>> {
+    let p = free.first()?.ncols();
+    let places: Vec<(&Matrix, usize)> = free
+        .iter()
+        .flat_map(|m| (0..m.nrows()).map(move |i| (m, i)))
+        .collect();
+    let stacked = Matrix::from_fn(places.len().max(p), p, |k, j| match places.get(k) {
+        Some((m, i)) => m[(*i, j)],
+        None => 0.0,
+    });
+    let qr = PivotedQr::of_columns(&stacked);
+    let mut pivots = qr.r_diagonal().map(f64::abs);
+    let largest = pivots.next()?;
+    if pivots
+        .chain([largest])
+        .any(|pivot| pivot <= VISIBLE * largest)
+    {
+        return None;
+    }
+    let mut x: Vec<f64> = wrenches.iter().flatten().map(|w| -w).collect();
+    x.resize(stacked.nrows(), 0.0);
+    Some(solved(&qr, x, p))
+}
+
+/// Returns the multipliers `λ + Z·y` that are zero in as many rows as there are free directions, or
+/// `None` if these rows are ill-conditioned.
+fn without_load(lambda: &[f64], z: &Matrix, rows: &[usize]) -> Option<Vec<f64>> {
+    if rows.len() != z.ncols() {
+        return None;
+    }
+    let qr = PivotedQr::of_columns(&z.select_rows(rows));
+    if relative_pivot(z, &qr) < FIRM {
+        return None;
+    }
+    let own = rows.iter().map(|&i| -lambda[i]).collect();
+    let mut lambda = moved(lambda, z, &solved(&qr, own, rows.len()));
+    rows.iter().for_each(|&i| lambda[i] = 0.0);
+    Some(lambda)
+}
+
+/// Returns the p values y for which `‖A·y − x‖` is smallest, from the factors of A.
+fn solved(qr: &PivotedQr, mut x: Vec<f64>, p: usize) -> Vec<f64> {
+    qr.q_transpose_mul(&mut x);
+    x.truncate(p);
+    qr.solve_r(&mut x);
+    let mut y = vec![0.0; p];
+    for (x, &k) in x.iter().zip(qr.permutation()) {
+        y[k] = *x;
+    }
+    y
 }
 
 /// The product `W·Z` for these rows of Z.

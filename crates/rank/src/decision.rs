@@ -48,7 +48,7 @@ pub use within::{RankReading, certify_rank, certify_within};
 pub(crate) use clear::{Size, independent, size};
 pub(crate) use coefficient::coefficient_noise;
 pub use explicit::{
-    KeptRowsError, decide_dropping, decide_keeping, dropping_of_rank, with_dropped,
+    KeptRowsError, carried, decide_dropping, decide_keeping, dropping_of_rank, with_dropped,
 };
 
 /// Works like [`decide`], with a given rank. Data within a stated tolerance may have a lower rank

@@ -17,8 +17,8 @@ pub use circuits::{Circuit, circuits, short_circuits};
 pub use decision::{
     Accuracy, Certificate, CoefficientReading, Doubt, Evidence, ExactNullSpace, Grounds,
     KeptRowsError, NearlyRedundant, RankDecision, RankError, RankReading, RankStatus, Readings,
-    Spectrum, certify_exact, certify_rank, certify_within, decide, decide_dropping, decide_keeping,
-    decide_of_rank, dropping_of_rank, promising_rows, with_dropped,
+    Spectrum, carried, certify_exact, certify_rank, certify_within, decide, decide_dropping,
+    decide_keeping, decide_of_rank, dropping_of_rank, promising_rows, with_dropped,
 };
 pub use deletions::{
     DeletionError, Limits, Substitutes, count_deletions, deletions, making_unique,

@@ -118,4 +118,31 @@ impl PivotedQr {
         }
         inverse
     }
+
+    /// Returns `‖R₁₁⁻¹‖` (Frobenius norm), which is `‖C⁺‖` of independent rows C. The inverse of the
+    /// result is a lower bound on the smallest singular value of C. The result is infinite for rows
+    /// with a zero pivot.
+    ///
+    /// ```
+    /// use pfaff_linalg::{Matrix, PivotedQr};
+    /// let qr = PivotedQr::of_rows(Matrix::from_rows(&[[2.0, 0.0], [0.0, 0.5]]));
+    /// assert!((qr.inverse_norm() - 0.5_f64.hypot(2.0)).abs() < 1e-15);
+    /// ```
+    #[must_use]
+    pub fn inverse_norm(&self) -> f64 {
+        let r = self.steps();
+        let mut x = vec![0.0; r];
+        let mut sum = 0.0;
+        for k in 0..r {
+            x.fill(0.0);
+            x[k] = 1.0;
+            self.solve_r_transpose_from(k, &mut x);
+            sum += kernels::dot(&x[k..], &x[k..]);
+        }
+        if sum.is_nan() {
+            f64::INFINITY
+        } else {
+            sum.sqrt()
+        }
+    }
 }

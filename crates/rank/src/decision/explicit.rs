@@ -3,9 +3,9 @@
 //! A list D of dropped rows is admissible iff `|D| = p` and the other rows have full rank r.
 //! Equivalently, the rows D of a left null space basis Z form a nonsingular block.
 
-use super::{Accuracy, RankDecision, RankError, Reading, read, required};
-use crate::strong_basis::{Basis, complement};
-use linalg::{Matrix, RowBasis, Scaling, singular_values};
+use super::{Accuracy, Evidence, RankDecision, RankError, Reading, gap, read, required, shown};
+use crate::strong_basis::{self, Basis, complement};
+use linalg::{Matrix, RowBasis, Scaling, kernels, singular_values};
 
 /// Reason why a choice of rows is not admissible.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
@@ -131,6 +131,59 @@ pub fn with_dropped(
     };
     let scaled = decision.scaling.apply(c);
     on_rows((decision.scaling.clone(), &scaled, reading), kept)
+}
+
+/// Carries a decision to a neighbouring matrix, such as C at another configuration of a motion. The
+/// scaling and the tolerance τ do not change. The kept rows change only if a coefficient exceeds 2.
+/// Instead of singular values, the function computes two bounds from the factors of the kept rows:
+/// `σ_r ≥ 1/‖C_K⁺‖` and `σ_{r+1} ≤ ‖C_D − T·C_K‖` (Frobenius norms). The evidence contains the
+/// bounds. Returns `None` if the bounds do not satisfy the rule for a decided rank, if the decision
+/// was undecided, or if the matrix has another shape.
+///
+/// ```
+/// use linalg::Matrix;
+/// use pfaff_rank::{Accuracy, carried, decide};
+/// let parallel = |x: f64| Matrix::from_rows(&[[1.0, x], [2.0, 2.0 * x], [x, 1.0]]);
+/// let decision = decide(&parallel(0.5), Accuracy::Rounding)?;
+/// let near = carried(&decision, &parallel(0.25)).expect("the same rank");
+/// assert_eq!((near.rank, &near.kept), (2, &decision.kept));
+/// // At x = 1 all rows are parallel.
+/// assert_eq!(carried(&decision, &parallel(1.0)), None);
+/// # Ok::<(), pfaff_rank::RankError>(())
+/// ```
+#[must_use]
+pub fn carried(decision: &RankDecision, c: &Matrix) -> Option<RankDecision> {
+    let shape = [decision.scaling.rows.len(), decision.scaling.cols.len()];
+    let is_same = shape == [c.nrows(), c.ncols()];
+    if !is_same || !decision.is_decided() || c.first_non_finite().is_some() {
+        return None;
+    }
+    let scaled = decision.scaling.apply(c);
+    let rows = RowBasis::of_rows(&scaled, decision.kept.clone());
+    let (basis, rows) = strong_basis::bounded(&scaled, rows);
+    let tolerance = decision.evidence.tolerance;
+    let sigma_r = rows.factored().inverse_norm().recip();
+    let outside = (0..basis.dropped.len()).map(|j| kernels::norm(rows.outside(j)));
+    let sigma_next = outside.fold(0.0, f64::hypot);
+    if sigma_next > tolerance || sigma_r < required(tolerance) || sigma_r.is_nan() {
+        return None;
+    }
+    let reading = Reading {
+        rank: decision.rank,
+        evidence: Evidence {
+            sigma_r,
+            sigma_next,
+            gap: gap(sigma_r, sigma_next),
+            tolerance,
+            constraint_residual: decision.evidence.constraint_residual,
+            dependence_residual: 0.0,
+            singular_values: Vec::new(),
+            certificate: None,
+        },
+        status: shown(sigma_next, tolerance),
+    };
+    let carried = reading.with_basis(decision.scaling.clone(), basis);
+    carried.is_decided().then_some(carried)
 }
 
 /// Works like [`decide`](super::decide), with given kept rows. In this case `|T̃_ji| ≤ 2` is not

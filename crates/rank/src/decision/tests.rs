@@ -391,3 +391,32 @@ fn bad_input_is_named() {
     assert_eq!(message(&[1, 3]), "row 3 does not exist, rows are 0..3");
     assert_eq!(message(&[1, 1]), "row 1 is listed twice");
 }
+
+/// Three cranks turn from 0.3 rad to their flat pose, where the rank drops. A carried decision is
+/// that of the matrix itself, its dependencies cancel its rows, and its bound is below σ_r. No
+/// decision is carried to the flat pose, nor to a matrix of higher rank.
+#[test]
+fn a_decision_is_carried_up_to_a_singular_pose() {
+    let mut last = decide(&parallel_cranks(1.0, 0.3), Accuracy::Rounding).unwrap();
+    for step in (0..=300).rev() {
+        let c = parallel_cranks(1.0, 1e-3 * f64::from(step));
+        let own = decide(&c, Accuracy::Rounding).unwrap();
+        let Some(found) = carried(&last, &c) else {
+            assert!(
+                step == 0 && own.rank == last.rank - 1,
+                "{step}: {}",
+                own.rank
+            );
+            continue;
+        };
+        assert!(step > 0 && own.is_decided() && own.rank == found.rank);
+        assert!(found.evidence.sigma_r <= own.evidence.sigma_r * (1.0 + 1e-9));
+        assert!(found.coefficients.max_abs() <= COEFFICIENT_BOUND);
+        let z = crate::dependencies(&found);
+        assert!(c.transpose().product(&z).max_abs() < 1e-12);
+        last = found;
+    }
+    let flat = decide(&parallel_cranks(1.0, 0.0), Accuracy::Rounding).unwrap();
+    assert_eq!(carried(&flat, &parallel_cranks(1.0, 0.3)), None);
+    assert_eq!(carried(&last, &(parallel_cranks(f64::NAN, 0.3))), None);
+}

@@ -49,16 +49,26 @@ impl<'a> Configuration<'a> {
         Configuration::of(Cow::Owned(mechanism.clone()), t, q, decision)
     }
 
-    /// Decides the rank of C at a configuration, like [`crate::decide`].
+    /// Decides the rank of C at a configuration, like [`crate::decide`]. If another configuration of
+    /// the same motion is given, its decision is carried to this configuration, provided that its
+    /// kept rows show the same rank here ([`rank::carried`]).
     ///
     /// # Errors
     /// - [`AnalysisError::Rank`]: C is not finite.
-    pub fn decided(mechanism: &'a Mechanism, t: f64, q: &[f64]) -> Result<Self, AnalysisError> {
+    pub fn decided(
+        mechanism: &'a Mechanism,
+        (t, q): (f64, &[f64]),
+        near: Option<&Self>,
+    ) -> Result<Self, AnalysisError> {
         let s = evaluated(mechanism, t, q);
-        let size = scene_size(mechanism, q);
+        let size = near.map_or_else(|| scene_size(mechanism, q), Self::size);
         let c = dimensionless(mechanism, &s, size);
-        let decision = rank::decide(&c, &uncertainty(mechanism, &s, size));
-        let decision = decision.map_err(|source| AnalysisError::Rank { time: t, source })?;
+        let carried = near.and_then(|near| rank::carried(near.solvability.decision(), &c));
+        let decision = match carried {
+            Some(decision) => decision,
+            None => rank::decide(&c, &uncertainty(mechanism, &s, size))
+                .map_err(|source| AnalysisError::Rank { time: t, source })?,
+        };
         Ok(Self {
             reactions: ReactionForms {
                 mechanism: Cow::Borrowed(mechanism),

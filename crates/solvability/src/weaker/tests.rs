@@ -20,7 +20,7 @@ fn a_weaker_joint_restricts_no_other_motion() {
     let place = [0.3, 0.2];
     let slider = block(Translational::new(place, place, Direction::X));
     let q = [0.0; 3];
-    let configuration = Configuration::decided(&slider, 0.0, &q).expect("a rank");
+    let configuration = Configuration::decided(&slider, (0.0, &q), None).expect("a rank");
     let search = Replacements::new(&configuration, &q);
     let count = |changed: &Mechanism| search.weaker_joints(changed, &[ConstraintId(0)]).len();
     let slot = |angle: f64| {
