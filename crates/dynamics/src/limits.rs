@@ -571,6 +571,13 @@ pub(crate) const RISES: f64 = 0.5;
 /// `a_pivot_that_vanishes_as_a_root_is_searched_for`.
 pub(crate) const STEEPER: f64 = 2.0;
 
+/// At a singular configuration, the independent rows that are still used imply a redundant row if
+/// at most this share of the row remains. A redundant row that replaces an independent row remains
+/// nearly in full. Unit: share of the row. Too small: the rank is decided at every singular
+/// configuration, which takes longer. Too large: replaced rows count as a loss of rank. Test:
+/// `a_row_that_replaces_another_is_no_loss`.
+pub(crate) const IMPLIED: f64 = 1e-2;
+
 /// Number of intervals into which a step is divided to analyse the motion through a singular
 /// configuration. Unit: intervals. Too small: the analysis does not find the singular
 /// configuration. Too large: the analysis takes longer. Test:

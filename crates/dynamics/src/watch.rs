@@ -24,5 +24,5 @@ mod step_end;
 pub(crate) use code_switch::CodeSwitch;
 pub(crate) use passage::Now;
 pub(crate) use pivots::{are_delicate, are_worn};
-pub(crate) use search::{Singular, SingularitySearch};
+pub(crate) use search::{SearchResult, Singular, SingularitySearch};
 pub(crate) use step_end::{Monitors, Next};

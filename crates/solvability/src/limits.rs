@@ -362,6 +362,11 @@ pub(crate) const RESOLUTION: f64 = 2.0 * f64::EPSILON;
 /// lose digits. Test: `edges_from_both_sides`.
 pub(crate) const EDGE: f64 = 1e-10;
 
+/// Number of parabolas after which the search for a corner continues by golden sections. Unit:
+/// evaluations. Too small: corners of smooth functions take longer. Too large: other minima take
+/// longer. Test: `corners_take_few_evaluations`.
+pub(crate) const CORNER_STEPS: usize = 14;
+
 /// Factor of the estimate for the lowest value of a function around its minimum. If a convex
 /// function is evaluated at golden sections, it lies above `least − 1.62·(largest − least)`. The
 /// larger factor also covers functions that are not convex. Unit: 1. Too small: minima are missed.

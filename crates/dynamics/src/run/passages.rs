@@ -7,7 +7,7 @@ use solvability::{KERNEL_MAX, PassageKind, State, singular_passages};
 
 use super::equations::RunEquations;
 use crate::limits::{BESIDE, JUDGED_MOST, MOST_PASSAGES, PASSAGE_STATES};
-use crate::watch::{Singular, SingularitySearch};
+use crate::watch::{SearchResult, Singular, SingularitySearch};
 
 /// Searches an accepted step for singular configurations if the step may contain one.
 pub(super) fn note(step: &mut Step<'_, RunEquations<'_>>) {
@@ -52,8 +52,8 @@ pub(super) fn note(step: &mut Step<'_, RunEquations<'_>>) {
     }
 }
 
-/// Returns the singular configurations within a step, in order. After a configuration is found,
-/// both sides of it are searched as well.
+/// Returns the singular configurations within a step, in order. After a configuration is found, a
+/// side of it on which the pivots fall again is searched as well.
 fn found(step: &mut Step<'_, RunEquations<'_>>) -> Vec<Singular> {
     let noise = step.ode().motion.watch.nearest();
     let mut search = SingularitySearch::new(&step.ode().motion.equations);
@@ -72,8 +72,13 @@ fn found(step: &mut Step<'_, RunEquations<'_>>) -> Vec<Singular> {
         if to - from < beside || found.len() == MOST_PASSAGES {
             continue;
         }
-        if let Some(singular) = search.find([from, to], noise, &mut state) {
-            intervals.extend([[from, singular.t - beside], [singular.t + beside, to]]);
+        if let Some(SearchResult {
+            singular,
+            falls_again: [before, after],
+        }) = search.find([from, to], noise, &mut state)
+        {
+            intervals.extend(before.then_some([from, singular.t - beside]));
+            intervals.extend(after.then_some([singular.t + beside, to]));
             let dependent = search.rank_lost(singular, &mut state);
             if dependent > 0 {
                 found.push(Singular {

@@ -445,6 +445,33 @@ impl KeptRows {
         self.solve_for_multipliers()
     }
 
+    /// Returns whether the rows of the last factorisation imply each redundant row, except for this
+    /// share of the redundant row. For large mechanisms, two sums of the redundant rows are examined
+    /// instead, as in [`Self::largest_coefficient`].
+    pub(crate) fn imply_dropped(&mut self, at: &Evaluation<'_>, share: f64) -> bool {
+        let are_summed = self.kept.len() >= SUMMED_FROM;
+        let (samples, rows) = match self.dropped.len() {
+            all if are_summed => (2, all.max(1) as f64),
+            all => (all, 1.0),
+        };
+        (0..samples).all(|k| {
+            let implied = if are_summed {
+                self.imply_sum(at, 1 + k as u64)
+            } else {
+                self.imply(at, self.dropped[k])
+            };
+            let ScaledVectors { force, units, .. } = &mut self.scaled;
+            let size = force.iter().map(|x| x * x / rows).sum::<f64>();
+            for (&i, coefficient) in self.kept.iter().zip(&self.lambda) {
+                for (j, c) in at.mechanism.layout().row(&at.s, i) {
+                    force[j] -= coefficient * c * units[j];
+                }
+            }
+            let left = force.iter().map(|x| x * x).sum::<f64>();
+            implied.is_ok() && left <= share * share * size
+        })
+    }
+
     /// Uses the reference pivot of other rows, because the current configuration may be singular.
     pub(crate) fn compare_as(&mut self, others: &Self) {
         self.reference_pivot = others.reference_pivot;

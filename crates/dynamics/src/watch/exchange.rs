@@ -39,15 +39,26 @@ impl Exchange {
             return Self::due_within_tolerance(equations, q);
         }
         let mut position = None;
+        let mut decided = None;
         if position_wants_exchange(equations) {
             let (at, old) = (&equations.at, &mut equations.position);
-            position = better(at, decide_holonomic_rows(at.mechanism, &at.s, q), old)?;
+            let decision = decide_holonomic_rows(at.mechanism, &at.s, q);
+            // Without nonholonomic rows, both levels have the same rows.
+            decided = decision
+                .clone()
+                .ok()
+                .filter(|_| at.mechanism.layout().h == 0);
+            position = better(at, decision, old)?;
         }
         let velocity = if requested_rows_recovered(equations) {
             Some(Velocity::Requested)
         } else if want_exchange(equations, choice) {
             let (at, old) = (&equations.at, &mut equations.velocity);
-            let rows = better(at, decide_rows(at.mechanism, &at.s, q), old)?;
+            let decision = match decided {
+                Some(decided) => Ok(decided),
+                None => decide_rows(at.mechanism, &at.s, q),
+            };
+            let rows = better(at, decision, old)?;
             let were_asked_for = matches!(choice, RowChoice::Drop(_));
             rows.map(|rows| Velocity::Others(Box::new(rows), were_asked_for))
         } else {

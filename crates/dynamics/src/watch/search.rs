@@ -2,12 +2,12 @@
 //! time and the number of dependent rows of each singular configuration.
 
 use model::System;
-use solvability::along::search::{minimum, root};
+use solvability::along::search::{corner, root};
 use solvability::decide_rows;
 
 use super::passage::Now;
 use crate::events::{Event, EventKind};
-use crate::limits::{BEYOND, GLANCES, PLACES, RISES, SHARP, STAYS, STEEPER, VANISHES};
+use crate::limits::{BEYOND, GLANCES, IMPLIED, PLACES, RISES, SHARP, STAYS, STEEPER, VANISHES};
 use crate::solve::{Evaluation, KeptEquations, KeptRows};
 
 /// A singular configuration within a step.
@@ -18,6 +18,37 @@ pub(crate) struct Singular {
     /// Number of independent rows that are dependent at the singular configuration. In a reported
     /// event, it is the loss of rank.
     pub(crate) dependent: usize,
+}
+
+/// A singular configuration, and whether the pivots fall again before it and after it within the
+/// searched interval.
+pub(crate) struct SearchResult {
+    pub(crate) singular: Singular,
+    pub(crate) falls_again: [bool; 2],
+}
+
+/// The smallest pivots and the signs of the bordered determinant at equidistant times.
+struct Samples {
+    times: Vec<f64>,
+    pivots: Vec<f64>,
+    signs: Vec<f64>,
+}
+
+impl Samples {
+    fn flips(&self, k: usize) -> bool {
+        self.signs[k] * self.signs[k + 1] < 0.0
+    }
+
+    /// Returns whether the pivots fall again before and after a minimum that is between two of the
+    /// samples. Beside a single singular configuration, they rise on both sides.
+    fn fall_again(&self, [before, after]: [usize; 2]) -> [bool; 2] {
+        let rises = |k: usize| self.pivots[k] < self.pivots[k + 1] && !self.flips(k);
+        let falls = |k: usize| self.pivots[k] > self.pivots[k + 1] && !self.flips(k);
+        [
+            !(0..before).all(falls),
+            !(after..self.times.len() - 1).all(rises),
+        ]
+    }
 }
 
 /// Returns the largest change between neighbouring values.
@@ -42,7 +73,9 @@ pub(super) fn foresee(equations: &KeptEquations<'_>, now: Now<'_>, expected: f64
     let interval = [now.t, now.t + BEYOND * (expected - now.t)];
     let mut search = SingularitySearch::new(equations);
     if search.is_promising(interval, &mut state) {
-        search.find(interval, noise, state).map(|found| found.t)
+        search
+            .find(interval, noise, state)
+            .map(|found| found.singular.t)
     } else {
         None
     }
@@ -52,6 +85,10 @@ pub(super) fn foresee(equations: &KeptEquations<'_>, now: Now<'_>, expected: f64
 pub(crate) struct SingularitySearch<'m> {
     at: Evaluation<'m>,
     rows: KeptRows,
+    /// A basis of the motions at the first sample, with which the determinant is bordered.
+    frame: Vec<f64>,
+    /// The coordinates at a time.
+    q: Vec<f64>,
 }
 
 impl<'m> SingularitySearch<'m> {
@@ -60,6 +97,8 @@ impl<'m> SingularitySearch<'m> {
         Self {
             at: equations.at.clone(),
             rows: equations.velocity.clone(),
+            frame: Vec::new(),
+            q: vec![0.0; equations.at.mechanism.layout().n_q],
         }
     }
 
@@ -71,111 +110,152 @@ impl<'m> SingularitySearch<'m> {
         [now, end]: [f64; 2],
         mut state: impl FnMut(f64, &mut [f64]),
     ) -> bool {
-        let mut q = vec![0.0; self.at.mechanism.layout().n_q];
-        let Some(first) = self.pivot_at(now, &mut q, &mut state) else {
+        let Some(first) = self.pivot_at(now, &mut state) else {
             return true;
         };
-        let mut frame = Vec::new();
-        self.rows.null_frame(&mut frame);
-        let sign = self.rows.orientation(&frame);
+        self.rows.null_frame(&mut self.frame);
+        let sign = self.rows.orientation(&self.frame);
         (1..=GLANCES).any(|k| {
             let t = now + (end - now) * (k as f64 / GLANCES as f64);
-            let pivot = self.pivot_at(t, &mut q, &mut state);
+            let pivot = self.pivot_at(t, &mut state);
             pivot.is_none_or(|pivot| pivot < STAYS * first)
-                || self.rows.orientation(&frame) * sign < 0.0
+                || self.rows.orientation(&self.frame) * sign < 0.0
         })
     }
 
     /// Returns the smallest pivot at a time, relative to the reference.
-    fn pivot_at(
-        &mut self,
-        t: f64,
-        q: &mut [f64],
-        state: &mut impl FnMut(f64, &mut [f64]),
-    ) -> Option<f64> {
-        state(t, q);
-        self.at.pose(t, q);
+    fn pivot_at(&mut self, t: f64, state: &mut impl FnMut(f64, &mut [f64])) -> Option<f64> {
+        state(t, &mut self.q);
+        self.at.pose(t, &self.q);
         let factored = self.rows.factor_above(0.0, &self.at);
         factored.ok().map(|()| self.rows.relative_pivot())
     }
 
-    /// Returns the singular configuration between t0 and t1, if there is one. The configuration is
-    /// at a change of sign of the bordered determinant, or at a minimum of the smallest relative
-    /// pivot below `noise`. `state` must return the coordinates at a time.
-    pub(crate) fn find(
+    /// Evaluates the rows at the ends of equal intervals between t0 and t1. Each time costs a
+    /// factorisation. `state` must return the coordinates at a time.
+    fn samples(
         &mut self,
         [t0, t1]: [f64; 2],
+        intervals: usize,
+        state: &mut impl FnMut(f64, &mut [f64]),
+    ) -> Option<Samples> {
+        let time = |k: usize| t0 + (t1 - t0) * (k as f64 / intervals as f64);
+        let mut samples = Samples {
+            times: (0..=intervals).map(time).collect(),
+            pivots: Vec::with_capacity(intervals + 1),
+            signs: Vec::with_capacity(intervals + 1),
+        };
+        for k in 0..=intervals {
+            samples.pivots.push(self.pivot_at(samples.times[k], state)?);
+            if k == 0 {
+                self.rows.null_frame(&mut self.frame);
+            }
+            samples.signs.push(self.rows.orientation(&self.frame));
+        }
+        Some(samples)
+    }
+
+    /// Returns the singular configuration between t0 and t1, if there is one.
+    pub(crate) fn find(
+        &mut self,
+        interval: [f64; 2],
         noise: f64,
         mut state: impl FnMut(f64, &mut [f64]),
-    ) -> Option<Singular> {
-        let mut q = vec![0.0; self.at.mechanism.layout().n_q];
-        let mut at = |t: f64, search: &mut Self| search.pivot_at(t, &mut q, &mut state);
-        let time = |k: usize| t0 + (t1 - t0) * (k as f64 / PLACES as f64);
-        let mut frame = Vec::new();
-        let (mut pivots, mut signs) = ([0.0; PLACES + 1], [0.0; PLACES + 1]);
-        for k in 0..=PLACES {
-            pivots[k] = at(time(k), self)?;
-            if k == 0 {
-                self.rows.null_frame(&mut frame);
-            }
-            signs[k] = self.rows.orientation(&frame);
-        }
-        let flip = signs.windows(2).position(|w| w[0] * w[1] < 0.0);
-        let t = match flip {
+    ) -> Option<SearchResult> {
+        let samples = self.samples(interval, PLACES, &mut state)?;
+        self.locate(&samples, noise, state)
+    }
+
+    /// Returns the singular configuration between the samples, if there is one. The configuration is
+    /// at a change of sign of the bordered determinant, or at a minimum of the smallest relative
+    /// pivot below `noise`.
+    fn locate(
+        &mut self,
+        samples: &Samples,
+        noise: f64,
+        mut state: impl FnMut(f64, &mut [f64]),
+    ) -> Option<SearchResult> {
+        let Samples {
+            times,
+            pivots,
+            signs,
+        } = samples;
+        let last = times.len() - 1;
+        let flip = (0..last).find(|&k| samples.flips(k));
+        let (t, ends) = match flip {
             // The pivot multiplied by the sign of the determinant crosses zero nearly linearly.
             Some(k) => {
                 let ends = [pivots[k], -pivots[k + 1]];
                 let signed = |t: f64| {
-                    let pivot = at(t, self).ok_or(())?;
-                    Ok::<f64, ()>(pivot * self.rows.orientation(&frame) * signs[k])
+                    let pivot = self.pivot_at(t, &mut state).ok_or(())?;
+                    Ok::<f64, ()>(pivot * self.rows.orientation(&self.frame) * signs[k])
                 };
-                root([time(k), time(k + 1)], ends, 0.0, signed).ok()?
+                let t = root([times[k], times[k + 1]], ends, 0.0, signed).ok()?;
+                (t, [k, k + 1])
             }
             None => {
-                let k = (1..PLACES).min_by(|&a, &b| pivots[a].total_cmp(&pivots[b]))?;
-                if pivots[k] - STEEPER * steepest(&pivots) > noise {
+                let k = (1..last).min_by(|&a, &b| pivots[a].total_cmp(&pivots[b]))?;
+                if pivots[k] - STEEPER * steepest(pivots) > noise {
                     return None;
                 }
-                let interval = [time(k - 1), time(k + 1)];
-                let enough = SHARP * (interval[1] - interval[0]);
-                let least = minimum(interval, noise, enough, |t| at(t, self).ok_or(()));
-                let (t, pivot) = least.ok()??;
+                let mut ends = [k - 1, k, k + 1].map(|k| (times[k], pivots[k]));
+                let enough = SHARP * (ends[2].0 - ends[0].0);
+                let mut pivot_at = |t| self.pivot_at(t, &mut state).ok_or(());
+                // If the pivot falls up to an end, a minimum is only possible if it rises just
+                // before this end.
+                let [first, middle, last] = ends;
+                let beside = if first.1 < middle.1 && first.1 < last.1 {
+                    Some(first.0 + enough)
+                } else if last.1 < middle.1 {
+                    Some(last.0 - enough)
+                } else {
+                    None
+                };
+                if let Some(t) = beside {
+                    ends[1] = (t, pivot_at(t).ok()?);
+                    if ends[1].1 >= first.1.min(last.1) {
+                        return None;
+                    }
+                }
+                let (t, pivot) = corner(ends, noise, enough, pivot_at).ok()??;
                 // A pivot has no minimum if it falls up to an end of the searched interval without
                 // rising again.
                 if pivot > RISES * pivots[k - 1].min(pivots[k + 1]) {
                     return None;
                 }
-                t
+                (t, [k - 1, k + 1])
             }
         };
-        let pivot = at(t, self)?;
+        let pivot = self.pivot_at(t, &mut state)?;
         if flip.is_none() && pivot > noise {
             return None;
         }
         let share = noise.max(2.0 * pivot);
         self.rows.factor_above(share, &self.at).ok()?;
-        Some(Singular {
-            t,
-            dependent: self.rows.n_left_out().max(1),
+        Some(SearchResult {
+            singular: Singular {
+                t,
+                dependent: self.rows.n_left_out().max(1),
+            },
+            falls_again: samples.fall_again(ends),
         })
     }
 
-    /// Returns the loss of rank of all rows at a configuration at which the independent rows lose
-    /// rank. The loss may be smaller than that of the independent rows, because other rows may
-    /// replace the independent rows that become dependent. In case of doubt, both losses count as
-    /// equal.
+    /// Returns the loss of rank of all rows at a configuration that was just found. If the
+    /// independent rows that are still used imply the redundant rows, the loss is that of the
+    /// independent rows. Otherwise redundant rows may replace independent rows, and the rank is
+    /// decided. In case of doubt, both losses count as equal.
     pub(crate) fn rank_lost(
         &mut self,
         Singular { t, dependent }: Singular,
         mut state: impl FnMut(f64, &mut [f64]),
     ) -> usize {
-        if self.rows.dropped.is_empty() {
+        if self.rows.imply_dropped(&self.at, IMPLIED) {
             return dependent;
         }
-        let mut q = vec![0.0; self.at.mechanism.layout().n_q];
-        state(t, &mut q);
-        self.at.pose_and_phi(t, &q);
-        match decide_rows(self.at.mechanism, &self.at.s, &q) {
+        state(t, &mut self.q);
+        self.at.pose_and_phi(t, &self.q);
+        match decide_rows(self.at.mechanism, &self.at.s, &self.q) {
             Ok(decision) if decision.is_decided() => {
                 self.rows.kept.len().saturating_sub(decision.rank)
             }
@@ -209,7 +289,12 @@ impl<'m> SingularitySearch<'m> {
 
 #[cfg(test)]
 mod tests {
+    use joints::{Line, PointOnLine};
+    use model::{Body, Description, Mechanism, StartOptions};
+
     use super::*;
+    use crate::options::RowChoice;
+    use crate::{PreparedMechanism, prepare};
 
     /// A pivot falls to zero like a square root between two instants. Near zero its change is
     /// steeper than its changes between instants show. The factor is 1/(√3 − 1) if the pivot
@@ -230,5 +315,48 @@ mod tests {
     fn a_pivot_that_hardly_changes_is_not_searched_for() {
         let pivots = [4.0, 3.5, 3.0, 3.5, 4.0].map(|x: f64| x / 3.0);
         assert!(1.0 - STEEPER * steepest(&pivots) > 0.5);
+    }
+
+    /// A beam on rollers at 0, ε and x, and a guide above it. The row at ε is left out. The last row
+    /// replaces it if its roller is far from the others.
+    #[test]
+    fn a_row_that_replaces_another_is_no_loss() {
+        let prepared = |rollers: [f64; 3]| {
+            let mut d = Description::new("beam");
+            let beam = d.body(Body::new("beam", 1.0, 1.0));
+            let guide = Line::new([0.0; 2], [0.0, 1.0]).expect("a line");
+            let above = PointOnLine {
+                s: [0.0, 1.0],
+                line: guide,
+            };
+            d.joint("guide", &[beam], above);
+            let line = Line::new([0.0; 2], [1.0, 0.0]).expect("a line");
+            for (name, x) in ["left", "middle", "right"].into_iter().zip(rollers) {
+                d.joint(name, &[beam], PointOnLine { s: [x, 0.0], line });
+            }
+            let mechanism = Mechanism::build(&d).expect("builds");
+            let choice = RowChoice::Drop(vec![3]);
+            prepare(mechanism, &StartOptions::default(), &choice).expect("starts")
+        };
+        let rows = |p: &PreparedMechanism, left_out: Option<&KeptRows>| {
+            let mut at = Evaluation::new(&p.mechanism, p.assembly.size);
+            let mut rows = KeptRows::new(&at, &p.decision, 3).expect("three rows");
+            at.pose(0.0, &p.q);
+            if let Some(others) = left_out {
+                rows.compare_as(others);
+                rows.factor_above(0.1, &at).expect("two rows");
+                assert_eq!(rows.n_left_out(), 1);
+            } else {
+                rows.factor(&at).expect("three rows");
+            }
+            let is_implied = rows.imply_dropped(&at, IMPLIED);
+            (rows, is_implied)
+        };
+        let (apart, is_implied) = rows(&prepared([0.0, 0.5, 1.0]), None);
+        assert!(is_implied);
+        for (last, expected) in [(1.0, false), (0.1, false), (2e-3, true)] {
+            let (_, is_implied) = rows(&prepared([0.0, 1e-3, last]), Some(&apart));
+            assert_eq!(is_implied, expected, "{last}");
+        }
     }
 }

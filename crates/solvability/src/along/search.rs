@@ -5,7 +5,7 @@
 //! The crate `integrators` has its own search for events. That crate depends on no other crate, and
 //! its search returns the end of the bracket after the event.
 
-use crate::limits::{EDGE, FALL, NARROWING, RESOLUTION, SEARCH_ITERATIONS};
+use crate::limits::{CORNER_STEPS, EDGE, FALL, NARROWING, RESOLUTION, SEARCH_ITERATIONS};
 
 /// Returns a root of `f` between a and b, where `f(a) > 0 > f(b)`. The method uses secant steps
 /// with the Illinois modification, and bisection if these steps gain too little. The search stops
@@ -129,6 +129,59 @@ pub fn minimum<E>(
     Ok(Some(best))
 }
 
+/// Works like [`minimum`], for three points with known values, of which the middle one is lowest.
+/// The square of `f` must be smooth, as for the absolute value of a smooth function. The minimum of
+/// the parabola through the squares then converges within a few evaluations. If it does not, the
+/// golden section search continues.
+///
+/// # Errors
+/// Returns the errors of `f`.
+pub fn corner<E>(
+    [mut low, mut middle, mut high]: [(f64, f64); 3],
+    limit: f64,
+    enough: f64,
+    mut f: impl FnMut(f64) -> Result<f64, E>,
+) -> Result<Option<(f64, f64)>, E> {
+    for _ in 0..CORNER_STEPS {
+        let narrow = enough.max(RESOLUTION * low.0.abs().max(high.0.abs()));
+        if high.0 - low.0 <= 4.0 * narrow || middle.1 == 0.0 {
+            return Ok(Some(middle));
+        }
+        let slope = |(t, x): (f64, f64)| (x * x - middle.1 * middle.1) / (t - middle.0);
+        let (before, after) = (slope(low), slope(high));
+        let bend = (after - before) / (high.0 - low.0);
+        // The derivative of the parabola at the middle point.
+        let along = before + bend * (middle.0 - low.0);
+        let vertex = middle.0 - 0.5 * along / bend;
+        // Points next to the middle point, first on the side of the vertex, enclose the minimum.
+        let [is_below, is_above] =
+            [middle.0 - low.0, high.0 - middle.0].map(|width| width <= 2.0 * narrow);
+        let t = if (vertex - middle.0).abs() >= narrow {
+            vertex
+        } else if is_below || vertex > middle.0 && !is_above {
+            middle.0 + narrow
+        } else {
+            middle.0 - narrow
+        };
+        if !(low.0 < t && t < high.0) || t == middle.0 {
+            break;
+        }
+        let found = (t, f(t)?);
+        let (inner, outer) = if found.1 < middle.1 {
+            (found, middle)
+        } else {
+            (middle, found)
+        };
+        if outer.0 < inner.0 {
+            low = outer;
+        } else {
+            high = outer;
+        }
+        middle = inner;
+    }
+    minimum([low.0, high.0], limit, enough, f)
+}
+
 fn lower(a: (f64, f64), b: (f64, f64)) -> (f64, f64) {
     if b.1 < a.1 { b } else { a }
 }
@@ -193,5 +246,36 @@ mod tests {
         // A jump does not reach zero on any narrow interval.
         let jump = |t: f64| if t < 0.3 { 0.2 } else { 0.1 + 1e-3 * t };
         assert!(matches!(found(0.0, &jump), (None, asked) if asked < 30));
+    }
+
+    /// The absolute value of a smooth function, the root of a parabola that stays above zero, and a
+    /// square root, whose square has a corner.
+    #[test]
+    fn corners_take_few_evaluations() {
+        let found = |enough: f64, f: &dyn Fn(f64) -> f64| {
+            let ends = [-1.0, 0.25, 2.0].map(|t| (t, f(t)));
+            let mut asked = 0;
+            let found = corner(ends, 0.1, enough, |t| {
+                asked += 1;
+                Ok::<_, Infallible>(f(t))
+            });
+            (found.unwrap().expect("a minimum").0, asked)
+        };
+        let smooth = |t: f64| (t - 0.3 + 0.2 * (t - 0.3).powi(2)).sin().abs();
+        for (least, f) in [
+            (0.3, &smooth as &dyn Fn(f64) -> f64),
+            (0.4, &|t: f64| (0.01 + (t - 0.4).powi(2)).sqrt()),
+        ] {
+            let (t, asked) = found(1e-7, f);
+            assert!(
+                (t - least).abs() < 1e-6 && asked <= CORNER_STEPS,
+                "{t}: {asked}"
+            );
+        }
+        let (t, asked) = found(1e-7, &|t| (t - 0.3).abs().sqrt());
+        assert!(
+            (t - 0.3).abs() < 1e-6 && asked > CORNER_STEPS,
+            "{t}: {asked}"
+        );
     }
 }
