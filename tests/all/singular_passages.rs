@@ -3,7 +3,9 @@
 
 use std::ops::ControlFlow;
 
-use dynamics::{EventKind, Method, MotionOptions, RowChoice, prepare, simulate};
+use dynamics::{
+    EventKind, Method, MotionOptions, OutputRequest, Plan, RowChoice, prepare, simulate,
+};
 use joints::RevoluteAngleDrive;
 use model::start::CorrectionLimit;
 use model::{BodyRef, Drive, Function, Mechanism, StartOptions};
@@ -71,6 +73,28 @@ fn a_driven_parallelogram_goes_on_smoothly_and_says_so() {
             assert!(event.text.contains("a bifurcation"), "{}", event.text);
         }
     }
+}
+
+/// Without a request, an event does not state whether the motion is unique. The event is otherwise
+/// the same.
+#[test]
+fn uniqueness_is_stated_on_request() {
+    let prepared = driven(&[0.0, 1.0], -0.5);
+    let [stated, brief] = [true, false].map(|uniqueness| {
+        let wanted = OutputRequest {
+            uniqueness,
+            ..OutputRequest::default()
+        };
+        let plan = Plan::new(&prepared, &MotionOptions::to(1.0), &wanted).expect("a plan");
+        let run = plan.simulate(|_| Ok(ControlFlow::Continue(())));
+        let summary = run.unwrap_or_else(|failure| panic!("{}", failure.error));
+        let [event] = summary.events.try_into().expect("one passage");
+        event
+    });
+    assert!(stated.text.contains("a bifurcation"), "{}", stated.text);
+    assert!(!brief.text.contains("unique"), "{}", brief.text);
+    let text = stated.text.clone();
+    assert_eq!(stated, dynamics::Event { text, ..brief });
 }
 
 /// The runs must end, or must write a row, in the singular configuration or near it.

@@ -44,6 +44,8 @@ pub struct OutputRequest {
     /// Additional assumptions (choices) that select one solution for reactions that are not unique.
     /// All reactions are requested for each choice. Each choice selects a solution at the start.
     pub choices: Vec<NamedChoice>,
+    /// Whether events at singular configurations state whether the motion is unique there.
+    pub uniqueness: bool,
 }
 
 /// Verdicts that are computed with reactions.
@@ -73,6 +75,7 @@ impl Default for OutputRequest {
             groups: Vec::new(),
             verdicts: Verdicts::WithInstants,
             choices: Vec::new(),
+            uniqueness: true,
         }
     }
 }
@@ -146,6 +149,8 @@ pub struct Plan<'a> {
     pub verdicts: Verdicts,
     /// Additional assumptions (choices) for which reactions are computed at output rows.
     pub choices: Vec<NamedChoice>,
+    /// Whether events at singular configurations state whether the motion is unique there.
+    pub uniqueness: bool,
     /// Components of the mechanism, or the whole mechanism as the only component.
     pub components: Vec<ComponentPlan<'a>>,
 }
@@ -198,6 +203,7 @@ impl<'a> Plan<'a> {
                 _ => wanted.groups.clone(),
             },
             choices: wanted.choices.clone(),
+            uniqueness: wanted.uniqueness,
             components,
         })
     }

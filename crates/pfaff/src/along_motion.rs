@@ -289,6 +289,7 @@ impl Study {
             // With this option, the run also returns its verdicts. The values of the reactions are
             // not computed.
             reactions: Reactions::All,
+            uniqueness: false,
             ..OutputRequest::default()
         };
         let options = MotionOptions {

@@ -85,6 +85,7 @@ impl Path {
             rows: plan.rows.value,
             accelerations: false,
             reactions: Reactions::None,
+            uniqueness: false,
             ..OutputRequest::default()
         };
         let other_plan = Plan::new(other, plan.options(), &wanted)?;

@@ -516,6 +516,7 @@ impl Study {
         let wanted = OutputRequest {
             accelerations: false,
             verdicts: Verdicts::None,
+            uniqueness: false,
             ..OutputRequest::default()
         };
         let plan = Plan::new(&self.prepared, &options, &wanted);
@@ -596,6 +597,7 @@ impl Study {
         let wanted = OutputRequest {
             accelerations: false,
             reactions: Reactions::None,
+            uniqueness: false,
             ..OutputRequest::default()
         };
         let plan = Plan::new(&self.prepared, options, &wanted)?;

@@ -59,6 +59,7 @@ pub(super) fn run_component(
         on_constraints: plan.rows.value != plan::Rows::Interpolated,
         accelerations: plan.accelerations.value,
         reactions: component.decisions.reactions.value.clone(),
+        uniqueness: plan.uniqueness,
     };
     let groups: Vec<Group> = plan
         .groups

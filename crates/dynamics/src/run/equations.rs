@@ -48,7 +48,7 @@ pub(super) struct RunEquations<'m> {
     pub(super) motion: KeptRowMotion<'m>,
     pub(super) record: Record,
     /// Values requested at output rows.
-    wanted: AtRows,
+    pub(super) wanted: AtRows,
     /// Additional assumptions (choices) for reactions at output rows, with their solvers.
     choices: &'m [NamedChoice],
     carried_choices: Option<CarriedChoices<'m>>,

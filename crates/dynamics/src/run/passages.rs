@@ -15,41 +15,35 @@ pub(super) fn note(step: &mut Step<'_, RunEquations<'_>>) {
         return;
     }
     for singular in found(step) {
-        // Singular configurations with the same loss of rank have the same result.
-        if step
-            .ode()
-            .record
-            .uniqueness_of(singular.dependent)
-            .is_none()
-        {
-            // The second-order test is skipped if it is not applicable, or if it takes longer than
-            // the run.
-            let motion = &step.ode().motion;
-            let layout = motion.mechanism().layout();
-            let mobility = layout.n_v - motion.equations.velocity.kept.len();
-            let (kernel, rows) = (mobility + singular.dependent, layout.rows());
-            let words = if kernel <= KERNEL_MAX && rows <= JUDGED_MOST {
-                judge(step)
-            } else {
-                None
-            };
-            let words = words.unwrap_or_else(|| {
-                "whether it is unique at this configuration is undecided".into()
-            });
-            step.ode()
-                .record
-                .uniqueness
-                .push((singular.dependent, words));
+        if step.ode().wanted.uniqueness {
+            note_uniqueness(step, singular.dependent);
         }
         let search = SingularitySearch::new(&step.ode().motion.equations);
-        let words = step
-            .ode()
-            .record
-            .uniqueness_of(singular.dependent)
-            .unwrap_or("");
+        let words = step.ode().record.uniqueness_of(singular.dependent);
         let event = search.event(singular, words);
         step.ode().record.events.push(event);
     }
+}
+
+/// Records whether the motion is unique at a singular configuration with this loss of rank, within
+/// the step. Singular configurations with the same loss of rank have the same result.
+fn note_uniqueness(step: &mut Step<'_, RunEquations<'_>>, dependent: usize) {
+    if step.ode().record.uniqueness_of(dependent).is_some() {
+        return;
+    }
+    // The second-order test is skipped if it is not applicable, or if it takes longer than the run.
+    let motion = &step.ode().motion;
+    let layout = motion.mechanism().layout();
+    let mobility = layout.n_v - motion.equations.velocity.kept.len();
+    let (kernel, rows) = (mobility + dependent, layout.rows());
+    let words = if kernel <= KERNEL_MAX && rows <= JUDGED_MOST {
+        judge(step)
+    } else {
+        None
+    };
+    let words =
+        words.unwrap_or_else(|| "whether it is unique at this configuration is undecided".into());
+    step.ode().record.uniqueness.push((dependent, words));
 }
 
 /// Returns the singular configurations within a step, in order. After a configuration is found, a

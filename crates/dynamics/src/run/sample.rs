@@ -81,6 +81,8 @@ pub(super) struct AtRows {
     pub(super) accelerations: bool,
     /// Joints and drives whose reactions are requested, ascending.
     pub(super) reactions: Vec<usize>,
+    /// Whether events at singular configurations state whether the motion is unique.
+    pub(super) uniqueness: bool,
 }
 
 /// Values at an output row, of a component or of the whole mechanism.

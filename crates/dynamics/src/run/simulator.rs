@@ -82,6 +82,7 @@ impl<'m> Simulator<'m> {
             on_constraints: true,
             accelerations: true,
             reactions: (0..motion.mechanism().layout().groups.len()).collect(),
+            uniqueness: true,
         };
         let wanted = (wanted, None);
         let equations = RunEquations::new(motion, prepared, options, wanted, (&[], None), stop);

@@ -264,14 +264,15 @@ impl<'m> SingularitySearch<'m> {
     }
 
     /// Returns the event that reports the configuration. `uniqueness` states whether the motion is
-    /// unique at this configuration.
-    pub(crate) fn event(&self, singular: Singular, uniqueness: &str) -> Event {
+    /// unique at this configuration, if this is requested.
+    pub(crate) fn event(&self, singular: Singular, uniqueness: Option<&str>) -> Event {
         let redundancy = self.rows.dropped.len();
         let Singular { t, dependent } = singular;
         let (rows, verb) = match dependent {
             1 => ("row", "depends"),
             _ => ("rows", "depend"),
         };
+        let uniqueness = uniqueness.map_or_else(String::new, |words| format!(": {words}"));
         Event {
             time: t,
             kind: EventKind::SingularPassage,
@@ -279,7 +280,7 @@ impl<'m> SingularitySearch<'m> {
             redundancy_after: redundancy + dependent,
             dropped: self.rows.dropped.clone(),
             text: format!(
-                "passed a singular configuration, where {dependent} more {rows} {verb} on the others for an instant: {uniqueness}. \
+                "passed a singular configuration, where {dependent} more {rows} {verb} on the others for an instant{uniqueness}. \
                  The run continued smoothly."
             ),
             impulses: Vec::new(),

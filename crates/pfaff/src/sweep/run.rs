@@ -117,6 +117,7 @@ impl PreparedRun {
             },
             groups: Vec::new(),
             choices: Vec::new(),
+            uniqueness: false,
             // The row of a sweep contains no instants. `OfRun` omits the loads on which bounds
             // depend.
             verdicts: match elastic {
