@@ -1,4 +1,5 @@
-//! Bodies without mass or inertia are accepted if and only if every motion has kinetic energy.
+//! Bodies without mass or inertia are accepted if and only if every motion has kinetic energy, or is
+//! a rotation about the centre of mass that nothing restricts. Such a rotation has no acceleration.
 //! Otherwise the error message describes a motion without mass or inertia.
 
 use dynamics::MotionOptions;
@@ -13,7 +14,7 @@ use crate::stress::motion::{acceleration, moving, prepared, worst};
 /// All combinations of zero mass and zero inertia.
 pub(super) const FAMILY: Family = Family {
     name: "massless",
-    about: "m = 0 and J = 0 in every combination: accelerations where M is definite on the motions of C, else the massless motion by name",
+    about: "m = 0 and J = 0 in every combination: accelerations where M is definite on the motions of C or a rotation influences nothing, else the massless motion by name",
     cases,
 };
 
@@ -43,11 +44,15 @@ fn cases() -> Vec<Case> {
             }
         }
         for [mass, inertia] in [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]] {
-            let right = Expected::refusal(&["without mass or inertia", "`stone`"]);
+            let right = if mass > 0.0 {
+                Expected::answer(0.0, "a point mass falls")
+            } else {
+                Expected::refusal(&["without mass or inertia", "`stone`"])
+            };
             let d = stone(mass, inertia);
             let name = format!("free body, m = {mass}, J = {inertia}");
             cases.push(moving(name, options.clone(), right, move |o| {
-                falling(&d, &[f64::NAN; 3], o)
+                falling(&d, &[0.0, -G, 0.0], o)
             }));
         }
         let right = Expected::answer(0.0, "it cannot move");
@@ -127,6 +132,10 @@ impl Chain {
     fn expected(&self) -> Expected {
         let ([[a, _], [_, d]], _) = self.reduced();
         match (self.determinant() == 0.0, a, d) {
+            (true, 1.0.., 0.0) if self.arm == 0.0 => Expected::answer(
+                BOUND,
+                "closed form: one equation, the second link does not rotate",
+            ),
             (false, ..) => Expected::answer(BOUND, "closed form: two equations in the angles"),
             // The rotation of the second link alone moves no mass.
             (true, 1.0.., 0.0) => Expected::refusal(&["without mass or inertia", "`second`"]),
@@ -137,7 +146,11 @@ impl Chain {
     fn accelerations(&self) -> Vec<f64> {
         let ([[a, b], [_, d]], [f, g]) = self.reduced();
         let det = self.determinant();
-        let [first, second] = [(f * d - b * g) / det, (a * g - b * f) / det];
+        let [first, second] = if self.arm == 0.0 && d == 0.0 {
+            [f / a, 0.0]
+        } else {
+            [(f * d - b * g) / det, (a * g - b * f) / det]
+        };
         vec![
             0.0,
             first,
