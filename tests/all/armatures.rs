@@ -1,5 +1,5 @@
-//! Armatures of joints. The references are closed forms, and the same scenes with rotors: a wheel on
-//! the ground without mass, which a coupling rotates with the joint coordinate.
+//! Armatures of joints. The references are closed forms, and the same scenes with rotors: a wheel
+//! on the ground without mass, which a coupling rotates with the joint coordinate.
 
 use std::fmt::Write;
 use std::ops::ControlFlow;

@@ -1,9 +1,9 @@
-//! Mass matrices that are diagonal except for a few rows: `M = diag(m) + Σ aₖ·gₖᵀ·gₖ`. Such a row is
-//! the inertia of a part that moves with a combination of the velocities, for example of a rotor
+//! Mass matrices that are diagonal except for a few rows: `M = diag(m) + Σ aₖ·gₖᵀ·gₖ`. Such a row
+//! is the inertia of a part that moves with a combination of the velocities, for example of a rotor
 //! that rotates with a joint coordinate.
 
-/// The rows g of a mass matrix with their inertias a. The columns of a row are fixed when the row is
-/// added; its values change along a motion.
+/// The rows g of a mass matrix with their inertias a. The columns of a row are fixed when the row
+/// is added; its values change along a motion.
 ///
 /// ```
 /// use pfaff_linalg::{AddedMass, MassMatrix};

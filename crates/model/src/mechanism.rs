@@ -265,7 +265,8 @@ impl Mechanism {
     /// Returns the rate of the sum of the kinetic energy and the potential energy of gravity (W),
     /// for velocities v and accelerations a: `vᵀ·(M·a − weight)`. If the constraints are satisfied,
     /// this rate is the power of drives and applied forces, because `M·a − Q = −Cᵀ·λ` and `C·v =
-    /// b`. An armature a adds a·ṡ·s̈. If there are armatures, the work space must contain the state:
+    /// b`. An armature a adds a·ṡ·s̈. If there are armatures, the work space must contain the
+    /// state:
     /// [`System::force`] must have been called.
     ///
     /// [`System::force`]: crate::System::force

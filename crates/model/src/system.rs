@@ -53,8 +53,8 @@ pub trait System: Sync {
     fn gamma(&self, s: &mut Scratch);
 
     /// Computes `s.force`: Q, n_v values. Q contains the terms of the inertia that are quadratic in
-    /// v: `−ω × J·ω` of bodies in space, and `gᵀ·a·γ` of armatures with s̈ = g·v̇ − γ. Also computes
-    /// the rows of M.
+    /// v: `−ω × J·ω` of bodies in space, and `gᵀ·a·γ` of armatures with s̈ = g·v̇ − γ. Also
+    /// computes the rows of M.
     fn force(&self, s: &mut Scratch);
 
     /// Computes q̇ = T(q)·v. The rates of states of force laws are zero here: they do not depend on

@@ -1,6 +1,6 @@
-//! Rows of the mass matrix. Each row g with the inertia a is a row `g·v − w = 0` of the constraints,
-//! and its velocity w has the mass a. The diagonal of S then contains 1/a for this row, and its
-//! multiplier is the load of the inertia.
+//! Rows of the mass matrix. Each row g with the inertia a is a row `g·v − w = 0` of the
+//! constraints, and its velocity w has the mass a. The diagonal of S then contains 1/a for this
+//! row, and its multiplier is the load of the inertia.
 
 use crate::{AddedMass, MassMatrix, SaddleError, SparseMatrix};
 

@@ -148,8 +148,8 @@ impl PlacedArmature {
         }
     }
 
-    /// Adds the derivatives of `yᵀ·gᵀ·a·g·v̇` with respect to the data of the joint to `out`. `y` and
-    /// `acceleration` are velocities of the bodies of the joint.
+    /// Adds the derivatives of `yᵀ·gᵀ·a·g·v̇` with respect to the data of the joint to `out`. `y`
+    /// and `acceleration` are velocities of the bodies of the joint.
     pub(crate) fn add_slopes(
         &self,
         s: &Slots,

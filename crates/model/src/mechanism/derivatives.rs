@@ -181,8 +181,8 @@ impl Derivatives {
         differentiate_forces(mechanism, s, [&mut self.force_dq, &mut self.force_dv]);
     }
 
-    /// Works like [`Derivatives::differentiate`], but only for the constraints and the armatures. The function does
-    /// not allocate memory.
+    /// Works like [`Derivatives::differentiate`], but only for the constraints and the armatures.
+    /// The function does not allocate memory.
     ///
     /// # Panics
     /// Panics under the same conditions as [`Derivatives::differentiate`].
