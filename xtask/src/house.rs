@@ -33,13 +33,13 @@ use crate::tree::root;
 // feature may increase a size limit, in a separate commit.
 
 /// Largest number of lines of code of all groups except tests and developers' tools.
-const TOTAL_MOST: usize = 161_200;
+const TOTAL_MOST: usize = 162_700;
 /// Largest number of lines of code of the product.
-const PRODUCT_MOST: usize = 124_000;
+const PRODUCT_MOST: usize = 125_450;
 /// Largest number of tokens of the product; with this limit, longer lines do not help.
-const TOKENS_MOST: usize = 1_180_000;
+const TOKENS_MOST: usize = 1_195_000;
 /// Largest number of lines of code of `dynamics`.
-const DYNAMICS_MOST: usize = 11_730;
+const DYNAMICS_MOST: usize = 11_870;
 /// Largest number of stateful types above the bounds.
 const STATEFUL_MOST: usize = 5;
 /// Largest number of modules in a circle.

@@ -446,8 +446,8 @@ impl KeptRows {
     }
 
     /// Returns whether the rows of the last factorisation imply each redundant row, except for this
-    /// share of the redundant row. For large mechanisms, two sums of the redundant rows are examined
-    /// instead, as in [`Self::largest_coefficient`].
+    /// share of the redundant row. For large mechanisms, two sums of the redundant rows are
+    /// examined instead, as in [`Self::largest_coefficient`].
     pub(crate) fn imply_dropped(&mut self, at: &Evaluation<'_>, share: f64) -> bool {
         let are_summed = self.kept.len() >= SUMMED_FROM;
         let (samples, rows) = match self.dropped.len() {

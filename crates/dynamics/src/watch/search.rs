@@ -40,7 +40,7 @@ impl Samples {
     }
 
     /// Returns whether the pivots fall again before and after a minimum that is between two of the
-    /// samples. Beside a single singular configuration, they rise on both sides.
+    /// samples. On both sides of a single singular configuration they rise.
     fn fall_again(&self, [before, after]: [usize; 2]) -> [bool; 2] {
         let rises = |k: usize| self.pivots[k] < self.pivots[k + 1] && !self.flips(k);
         let falls = |k: usize| self.pivots[k] > self.pivots[k + 1] && !self.flips(k);
@@ -166,8 +166,8 @@ impl<'m> SingularitySearch<'m> {
         self.locate(&samples, noise, state)
     }
 
-    /// Returns the singular configuration between the samples, if there is one. The configuration is
-    /// at a change of sign of the bordered determinant, or at a minimum of the smallest relative
+    /// Returns the singular configuration between the samples, if there is one. The configuration
+    /// is at a change of sign of the bordered determinant, or at a minimum of the smallest relative
     /// pivot below `noise`.
     fn locate(
         &mut self,
@@ -318,8 +318,8 @@ mod tests {
         assert!(1.0 - STEEPER * steepest(&pivots) > 0.5);
     }
 
-    /// A beam on rollers at 0, ε and x, and a guide above it. The row at ε is left out. The last row
-    /// replaces it if its roller is far from the others.
+    /// A beam on rollers at 0, ε and x, and a guide above it. The row at ε is left out. The last
+    /// row replaces it if its roller is far from the others.
     #[test]
     fn a_row_that_replaces_another_is_no_loss() {
         let prepared = |rollers: [f64; 3]| {

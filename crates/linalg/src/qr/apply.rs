@@ -119,9 +119,9 @@ impl PivotedQr {
         inverse
     }
 
-    /// Returns `‖R₁₁⁻¹‖` (Frobenius norm), which is `‖C⁺‖` of independent rows C. The inverse of the
-    /// result is a lower bound on the smallest singular value of C. The result is infinite for rows
-    /// with a zero pivot.
+    /// Returns `‖R₁₁⁻¹‖` (Frobenius norm), which is `‖C⁺‖` of independent rows C. The inverse of
+    /// the result is a lower bound on the smallest singular value of C. The result is infinite for
+    /// rows with a zero pivot.
     ///
     /// ```
     /// use pfaff_linalg::{Matrix, PivotedQr};

@@ -49,9 +49,9 @@ impl<'a> Configuration<'a> {
         Configuration::of(Cow::Owned(mechanism.clone()), t, q, decision)
     }
 
-    /// Decides the rank of C at a configuration, like [`crate::decide`]. If another configuration of
-    /// the same motion is given, its decision is carried to this configuration, provided that its
-    /// kept rows show the same rank here ([`rank::carried`]).
+    /// Decides the rank of C at a configuration, like [`crate::decide`]. If another configuration
+    /// of the same motion is given, its decision is carried to this configuration, provided that
+    /// its kept rows show the same rank here ([`rank::carried`]).
     ///
     /// # Errors
     /// - [`AnalysisError::Rank`]: C is not finite.

@@ -1,5 +1,5 @@
-//! Bodies without mass or inertia are accepted if and only if every motion has kinetic energy, or is
-//! a rotation about the centre of mass that nothing restricts. Such a rotation has no acceleration.
+//! Bodies without mass or inertia are accepted if and only if every motion has kinetic energy, or
+//! is a rotation about the centre of mass that nothing restricts, without an acceleration.
 //! Otherwise the error message describes a motion without mass or inertia.
 
 use dynamics::MotionOptions;
