@@ -12,9 +12,10 @@ impl<'a> Source<'a, '_> {
     /// Returns the mass of a body: the mass that the file states for the body, or the mass of the
     /// geoms. `pose` is the pose that the body states.
     ///
-    /// If a body has no mass except by the bounds of `<compiler>`, the inertial frame of MuJoCo is
-    /// a copy of the attributes of the body: it has the same pose relative to the body as the body
-    /// has relative to the surrounding element.
+    /// If a body has no geom and no mass except by the bounds of `<compiler>`, the inertial frame of
+    /// MuJoCo is a copy of the attributes of the body: it has the same pose relative to the body as
+    /// the body has relative to the surrounding element. If the mass of the geoms is not read,
+    /// as for meshes, the bounds apply at the origin of the body.
     pub(super) fn mass(
         &mut self,
         body: Element<'a>,
@@ -42,7 +43,8 @@ impl<'a> Source<'a, '_> {
         if let (0.0, Some(item)) = (mass.mass, own) {
             mass = self.inertial(item).unwrap_or_default();
         }
-        if mass.is_nothing() && own.is_none() {
+        let has_geoms = items.iter().any(|item| item.element.name() == "geom");
+        if mass.is_nothing() && own.is_none() && !has_geoms {
             return self.bound_alone(body, pose);
         }
         self.bounded(mass)

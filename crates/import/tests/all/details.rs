@@ -165,6 +165,20 @@ fn a_body_without_mass_has_its_bounds_at_its_position() {
     }
 }
 
+/// MuJoCo does not use the position of a body with a mesh, whose mass the import omits.
+#[test]
+fn a_body_whose_mesh_is_not_read_has_its_bounds_at_its_origin() {
+    for geom in ["<geom mesh='m'/>", "<geom type='mesh' mesh='m'/>"] {
+        let done = mjcf(&format!(
+            "<compiler boundmass='0.1' boundinertia='0.01'/><asset><mesh name='m' file='m.stl'/>\
+             </asset><worldbody><body name='b' pos='0 0.3 1'><joint axis='1 0 0'/>{geom}</body>\
+             </worldbody>"
+        ));
+        close(&done, ["body", "b", "mass"], &[0.1]);
+        assert!(!done.scene.contains("centre ="), "{}", done.scene);
+    }
+}
+
 /// The spring −2·q has its free length at q = 0, where the points of the slide coincide. The
 /// coupling describes the slide at q = −0.5.
 #[test]
