@@ -12,9 +12,9 @@ impl<'a> Source<'a, '_> {
     /// Returns the mass of a body: the mass that the file states for the body, or the mass of the
     /// geoms. `pose` is the pose that the body states.
     ///
-    /// If a body has no geom and no mass except by the bounds of `<compiler>`, the inertial frame of
-    /// MuJoCo is a copy of the attributes of the body: it has the same pose relative to the body as
-    /// the body has relative to the surrounding element. If the mass of the geoms is not read,
+    /// If a body has no geom and no mass except by the bounds of `<compiler>`, the inertial frame
+    /// of MuJoCo is a copy of the attributes of the body: it has the same pose relative to the body
+    /// as the body has relative to the surrounding element. If the mass of the geoms is not read,
     /// as for meshes, the bounds apply at the origin of the body.
     pub(super) fn mass(
         &mut self,
