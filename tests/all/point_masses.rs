@@ -133,7 +133,7 @@ joint = [
 /// A spring away from the centre of mass accelerates the rotation without limit if the body has no
 /// inertia.
 #[test]
-fn a_force_beside_the_centre_needs_an_inertia() {
+fn a_force_away_from_the_centre_needs_an_inertia() {
     let scene = r#"
 scene = { name = "bob", space = "plane" }
 body = [{ name = "bob", mass = 2, inertia = 0, position = [0, -1] }]

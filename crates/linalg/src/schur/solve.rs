@@ -131,68 +131,70 @@ impl SchurSaddle {
         }
     }
 
-    /// Solves the extended equations.
+    /// Solves the extended equations, if there are any.
     fn solve_extended(
         &mut self,
         (f, gamma): (&[f64], &[f64]),
         a: &mut [f64],
         lambda: &mut [f64],
     ) -> Result<bool, SaddleError> {
-        let Some(mut system) = self.extended.take() else {
-            return Ok(false);
-        };
-        let ExtendedSystem {
-            c,
-            f: of_all,
-            gamma: of_rows,
-            a: motion,
-            lambda: multipliers,
-            ..
-        } = &mut *system;
-        let copied = begin(of_all, f, "f").and_then(|()| begin(of_rows, gamma, "gamma"));
-        let solved = copied
-            .and_then(|()| self.solve(c, of_all, of_rows, motion, multipliers))
-            .map(|()| {
-                a.copy_from_slice(&motion[..a.len()]);
-                lambda.copy_from_slice(&multipliers[..lambda.len()]);
-                true
-            });
-        self.extended = Some(system);
-        solved
+        self.with_extended((a, lambda), |this, system| {
+            begin(&mut system.f, f, "f")?;
+            begin(&mut system.gamma, gamma, "gamma")?;
+            let ExtendedSystem {
+                c,
+                f,
+                gamma,
+                a,
+                lambda,
+                ..
+            } = system;
+            this.solve(c, f, gamma, a, lambda)
+        })
     }
 
-    /// Computes the multipliers of the extended equations for a motion.
+    /// Computes the multipliers of the extended equations for a motion, if there are any.
     fn multipliers_extended(
         &mut self,
         f: &[f64],
         a: &[f64],
         lambda: &mut [f64],
     ) -> Result<bool, SaddleError> {
+        self.with_extended((&mut [], lambda), |this, system| {
+            begin(&mut system.f, f, "f")?;
+            begin(&mut system.a, a, "a")?;
+            let ExtendedSystem {
+                c,
+                f,
+                a: motion,
+                lambda,
+                ..
+            } = system;
+            for (k, i) in (this.structure.rows_of_c..c.nrows()).enumerate() {
+                let rate = c.entries(i).filter(|(j, _)| *j < a.len());
+                motion[a.len() + k] = rate.map(|(j, g)| g * a[j]).sum();
+            }
+            this.multipliers(c, f, motion, lambda)
+        })
+    }
+
+    /// Calls a function with the extended equations and copies the solution of the original
+    /// equations. Returns whether there are extended equations.
+    fn with_extended(
+        &mut self,
+        (a, lambda): (&mut [f64], &mut [f64]),
+        solve: impl FnOnce(&mut Self, &mut ExtendedSystem) -> Result<(), SaddleError>,
+    ) -> Result<bool, SaddleError> {
         let Some(mut system) = self.extended.take() else {
             return Ok(false);
         };
-        let ExtendedSystem {
-            c,
-            f: of_all,
-            a: motion,
-            lambda: multipliers,
-            ..
-        } = &mut *system;
-        let copied = begin(of_all, f, "f").and_then(|()| begin(motion, a, "a"));
-        let found = copied
-            .and_then(|()| {
-                for (k, i) in (self.structure.rows_of_c..c.nrows()).enumerate() {
-                    let rate = c.entries(i).filter(|(j, _)| *j < a.len());
-                    motion[a.len() + k] = rate.map(|(j, g)| g * a[j]).sum();
-                }
-                self.multipliers(c, of_all, motion, multipliers)
-            })
-            .map(|()| {
-                lambda.copy_from_slice(&multipliers[..lambda.len()]);
-                true
-            });
+        let solved = solve(self, &mut system);
+        if solved.is_ok() {
+            a.copy_from_slice(&system.a[..a.len()]);
+            lambda.copy_from_slice(&system.lambda[..lambda.len()]);
+        }
         self.extended = Some(system);
-        found
+        solved.map(|()| true)
     }
 
     fn check(

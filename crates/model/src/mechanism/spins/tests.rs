@@ -1,7 +1,9 @@
 //! Tests which rotations influence nothing, on mechanisms whose rotations are known by inspection.
 
 use joints::space3::{self, BodyPointForce, Spherical};
-use joints::{Distance, Revolute, RevoluteAngleDrive, SpringDamper, TorsionSpringDamper};
+use joints::{
+    Direction, Distance, KnifeEdge, Revolute, RevoluteAngleDrive, SpringDamper, TorsionSpringDamper,
+};
 
 use crate::body::{Body, BodyRef, SpatialBody};
 use crate::description::{Description, SpatialDescription};
@@ -80,6 +82,12 @@ fn joints_and_forces_that_turn_with_a_body_depend_on_its_rotation() {
         &[GROUND, wheel],
         TorsionSpringDamper::new(2.0, 0.0),
     );
+    assert!(spins(&Mechanism::build(&d).expect("builds")).is_empty());
+
+    // The blade turns with the body, although it has no lever arm.
+    let mut d = Description::new("skate");
+    let skate = bob(&mut d, "skate", 0.0);
+    d.joint("blade", &[skate], KnifeEdge::new([0.0; 2], Direction::X));
     assert!(spins(&Mechanism::build(&d).expect("builds")).is_empty());
 
     // A spring on a point mass and on a body that cannot rotate.
