@@ -15,6 +15,7 @@ use std::time::{Duration, Instant};
 
 use pfaff::forked::on_own_threads;
 use pfaff::refusal::Refusal;
+use pfaff::words::in_units_of_scenes;
 use pyo3::prelude::*;
 
 use crate::fault::{Fault, guarded, raised_by};
@@ -44,7 +45,9 @@ pub(crate) fn heard<T: Send + 'static>(
     let (done, waits) = channel::<Ended<T>>();
     let own = Arc::clone(&hearing);
     let job = move |wait: &dyn Fn()| {
-        let outcome = catch_unwind(AssertUnwindSafe(|| on_own_threads(|| work(&own))));
+        let outcome = catch_unwind(AssertUnwindSafe(|| {
+            on_own_threads(|| in_units_of_scenes(|| work(&own)))
+        }));
         // The next call of this thread uses the same worker.
         wait();
         // After Ctrl-C the calling thread may no longer wait for the result.
@@ -125,7 +128,7 @@ pub(crate) fn heard_here<T: Send>(
 ) -> PyResult<T> {
     guarded(py, || {
         let hearing = Arc::new(Hearing::new());
-        let done = work(&hearing);
+        let done = in_units_of_scenes(|| work(&hearing));
         hearing.raised().map_or(done, |raised| Err(raised.into()))
     })
 }

@@ -84,6 +84,25 @@ def test_couplings_have_their_own_force() -> None:
         assert np.isnan(run.reaction("level")[name]).all()
 
 
+TURNED = """
+scene = { name = "turned", space = "plane", format = 2, units = { length = "mm", angle = "deg" } }
+body = [{ name = "disc", mass = 1.0, inertia = 1e3 }]
+joint = [{ name = "pivot", type = "revolute", bodies = ["ground", "disc"], at = [0, 0] }]
+drive = [{ name = "motor", joint = "pivot", type = "angle", motion = { type = "constant-rate", rate = 90 } }]
+"""
+
+
+def test_messages_have_the_units_of_the_scene() -> None:
+    turned = pfaff.Scene.from_string(TURNED)
+    # The second answer uses the stored start of the first.
+    for _ in range(2):
+        with pytest.raises(pfaff.Error, match="`motor` prescribes 90 deg/s"):
+            turned.equilibrium()
+    radians = pfaff.Scene.from_string(TURNED.replace('angle = "deg"', 'angle = "rad"'))
+    with pytest.raises(pfaff.Error, match="`motor` prescribes 90 rad/s"):
+        radians.equilibrium()
+
+
 @pytest.mark.parametrize("path", EXAMPLES, ids=lambda path: path.stem)
 def test_directions_are_rows(path: Path) -> None:
     """Arrays have as many columns as components (six in space), even without a row."""

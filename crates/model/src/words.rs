@@ -1,5 +1,11 @@
 //! Short numbers and lists in messages.
 
+mod units;
+
+pub use units::{
+    SceneUnits, UnitSystem, in_same_units, in_units, in_units_of_scenes, read_in, units,
+};
+
 /// Largest number of names that are listed completely. A longer list consists of its first names
 /// and a count.
 pub const LISTED: usize = 12;
@@ -183,7 +189,8 @@ impl Prefix {
     }
 }
 
-/// Formats a number with four significant digits and its unit, with the prefix for its size.
+/// Formats a number with four significant digits and its unit: the unit of the scene (see
+/// [`in_units`]), or the SI unit with the prefix for its size.
 ///
 /// ```
 /// use pfaff_model::words::quantity;
@@ -192,20 +199,43 @@ impl Prefix {
 /// ```
 #[must_use]
 pub fn quantity(x: f64, unit: &str) -> String {
-    let prefix = Prefix::of(to_digits(x, 4).abs(), unit);
-    format!("{} {}{unit}", short(x / prefix.factor), prefix.symbol)
+    with_unit(x, unit, 4)
 }
 
-/// Formats the range between two numbers, with one prefix.
+fn with_unit(x: f64, unit: &str, significant: usize) -> String {
+    let (unit, factor) = units().unit(to_digits(x, significant).abs(), unit);
+    format!("{} {unit}", digits(x / factor, significant))
+}
+
+/// Formats the range between two numbers, with one unit.
 ///
 /// ```
 /// assert_eq!(pfaff_model::words::range(20.0, 1200.0, "N"), "0.02 … 1.2 kN");
 /// ```
 #[must_use]
 pub fn range(least: f64, greatest: f64, unit: &str) -> String {
-    let prefix = Prefix::of(least.abs().max(greatest.abs()), unit);
-    let [least, greatest] = [least, greatest].map(|x| short(x / prefix.factor));
-    format!("{least} … {greatest} {}{unit}", prefix.symbol)
+    let (unit, factor) = units().unit(least.abs().max(greatest.abs()), unit);
+    format!(
+        "{} … {} {unit}",
+        short(least / factor),
+        short(greatest / factor)
+    )
+}
+
+/// Formats a vector of quantities in the unit of the scene, otherwise in the SI unit without
+/// prefix. Components below 1e-9 of `size` are rounding errors and are printed as zero.
+///
+/// ```
+/// assert_eq!(pfaff_model::words::vector(&[0.25, -1.0, 1e-14], 1.0, "m"), "(0.25, −1, 0) m");
+/// ```
+#[must_use]
+pub fn vector(x: &[f64], size: f64, unit: &str) -> String {
+    let (unit, factor) = units().unprefixed(unit);
+    let visible = |x: &f64| if x.abs() > 1e-9 * size { *x } else { 0.0 };
+    let components: Vec<String> = x.iter().map(|x| short(visible(x) / factor)).collect();
+    format!("({}) {unit}", components.join(", "))
+        .trim_end()
+        .to_owned()
 }
 
 /// Formats a quantity with two significant digits.
@@ -215,7 +245,7 @@ pub fn range(least: f64, greatest: f64, unit: &str) -> String {
 /// ```
 #[must_use]
 pub fn estimate(x: f64, unit: &str) -> String {
-    quantity(to_digits(x, 2), unit)
+    with_unit(x, unit, 2)
 }
 
 #[cfg(test)]

@@ -59,7 +59,7 @@ struct CommonOptions {
     /// Print more details
     #[arg(long, conflicts_with = "json")]
     verbose: bool,
-    /// Print numbers of tables in SI units without prefixes
+    /// Print numbers in SI units without prefixes
     #[arg(long, conflicts_with = "json")]
     si: bool,
 }
@@ -198,7 +198,7 @@ pub struct Asking<'a> {
     pub is_json: bool,
     /// Whether details are also printed.
     pub is_verbose: bool,
-    /// Whether values in tables are printed in SI units without prefixes.
+    /// Whether values are printed in SI units without prefixes.
     pub is_si: bool,
     /// Number of threads.
     pub threads: Option<NonZeroUsize>,
@@ -247,6 +247,7 @@ impl Asking<'_> {
             directory: place.as_ref().map(|place| &place.directory),
             provenance: &provenance(),
             threads: self.threads,
+            is_si: self.is_si,
         };
         let answer = ask(&control)?;
         drop(shown);
@@ -257,7 +258,7 @@ impl Asking<'_> {
         let text = if self.is_json {
             answer.json()?
         } else {
-            answer.text(self.is_verbose, self.is_si) + &written
+            answer.text(self.is_verbose) + &written
         };
         Ok((text, answer.ending()))
     }

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use pfaff::documents::{NewDocument, TemplateDocument, TemplatesDocument};
 use pfaff::template::Template;
-use pfaff::words::{self, Block, UnitSystem};
+use pfaff::words::{self, Block};
 
 use crate::args::New;
 use crate::console::Console;
@@ -65,5 +65,5 @@ fn list(json: bool, console: &Console<'_>) -> Outcome {
         Block::table(["template", "is"], lines),
         Block::sentence("`pfaff new TEMPLATE` writes one"),
     ];
-    console.print(&words::text(&blocks, false, UnitSystem::Si))
+    console.print(&words::text(&blocks, false))
 }

@@ -5,8 +5,9 @@ use std::io::{BufRead, BufReader, BufWriter, Write};
 use std::ops::ControlFlow;
 
 use dynamics::Sample;
+use model::words::SceneUnits;
 use model::{BodyRef, ConstraintId, Loads, Mechanism, Reaction, Scratch, System};
-use report::{OutputDirectory, OutputFile, SceneUnits, Table, TableError, file_stems};
+use report::{OutputDirectory, OutputFile, Table, TableError, file_stems};
 use solvability::{Stretches, VerdictTrack};
 
 use crate::documents::{BodyOfRunDocument, Ending};

@@ -7,7 +7,7 @@ use std::sync::Arc;
 
 use dynamics::{MotionFault, Plan, Sample};
 use model::reaction::ConstraintGroup;
-use model::words::rounded;
+use model::words::{in_same_units, rounded};
 use model::{ConfigurationAccuracy, ConstraintId, Mechanism, System};
 use rayon::prelude::*;
 use report::{
@@ -192,7 +192,9 @@ impl<'m> BoundsOfRun<'m> {
     /// Computes the bounds of the waiting rows and writes them.
     fn compute(&mut self) -> Result<(), TableError> {
         let waiting = std::mem::take(&mut self.waiting);
-        let each = waiting.par_iter().map(|instant| self.at(instant));
+        let each = waiting
+            .par_iter()
+            .map(in_same_units(|instant| self.at(instant)));
         let each: Vec<RowBounds> = each.collect();
         for (instant, bounds) in waiting.iter().zip(each) {
             let t = instant.t;

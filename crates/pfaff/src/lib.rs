@@ -102,7 +102,11 @@ pub fn both<A: Send, B: Send>(
     a: impl FnOnce() -> A + Send,
     b: impl FnOnce() -> B + Send,
 ) -> (A, B) {
-    rayon::join(a, b)
+    let own = model::words::units();
+    rayon::join(
+        || model::words::in_units(own, a),
+        || model::words::in_units(own, b),
+    )
 }
 
 #[cfg(feature = "macros")]

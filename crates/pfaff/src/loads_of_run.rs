@@ -4,8 +4,9 @@ use std::ops::ControlFlow;
 
 use dynamics::Sample;
 use model::space::norm;
+use model::words::SceneUnits;
 use model::{Load, Loads, Mechanism, SpaceKind, System};
-use report::{LoadTable, OutputDirectory, OutputFile, SceneUnits, load_columns, load_numbers};
+use report::{LoadTable, OutputDirectory, OutputFile, load_columns, load_numbers};
 use solvability::Stretches;
 
 use crate::documents::{

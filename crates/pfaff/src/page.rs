@@ -40,6 +40,7 @@ mod values;
 mod verdicts;
 
 use model::Mechanism;
+use model::words::{UnitSystem, in_units};
 
 pub use comparison::{ComparedChoice, Comparison, Freedom};
 pub use run_page::{Band, DriveCurve, Origin, Plot, PlotCurve, RunPage, Shows, WrittenScene};
@@ -53,5 +54,7 @@ pub fn numbers_per_row(mechanism: &Mechanism) -> usize {
 /// Builds the page of a run. The same input gives the same bytes.
 #[must_use]
 pub fn run_page(page: &RunPage<'_>) -> String {
-    document::document(page)
+    in_units(UnitSystem::Scene(page.scene.units), || {
+        document::document(page)
+    })
 }

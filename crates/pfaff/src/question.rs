@@ -7,12 +7,13 @@ use std::sync::LazyLock;
 
 use crate::page::Origin;
 use model::codes::Code;
+use model::words::{in_units, in_units_of_scenes, units};
 use report::{Family, FileError, OutputDirectory, Provenance};
 use serde::{Deserialize, Serialize};
 
 use crate::refusal::{Refusal, json};
 use crate::start::Start;
-use crate::words::{self, Block, SceneUnits, UnitSystem, count};
+use crate::words::{self, Block, UnitSystem, count};
 
 /// A question. Its fields are the options. The comments of the fields are also the help of the
 /// command.
@@ -94,11 +95,6 @@ impl<'s> Subject<'s> for Vec<&'s Start<'s>> {
 pub trait Answer: Serialize + Send + 'static {
     /// Returns the answer as text.
     fn words(&self) -> Vec<Block>;
-
-    /// Returns the units of the scene for the text.
-    fn units(&self) -> SceneUnits {
-        SceneUnits::default()
-    }
 
     /// Returns whether the answer is complete.
     fn ending(&self) -> Ending {
@@ -233,6 +229,9 @@ pub struct Control<'c> {
     pub provenance: &'c Provenance,
     /// Number of threads. `None` means one thread for each core.
     pub threads: Option<NonZeroUsize>,
+    /// Whether texts contain SI units without prefixes. Otherwise, they contain the units of the
+    /// scene.
+    pub is_si: bool,
 }
 
 /// Provenance of callers that do not state one.
@@ -258,6 +257,7 @@ impl Control<'static> {
             directory: None,
             provenance: &UNNAMED,
             threads: None,
+            is_si: false,
         }
     }
 }
@@ -302,15 +302,34 @@ impl<Q: Question> AnyQuestion for Q {
             let expected = count(least, "scene", "scenes");
             Refusal::input(format!("`{name}` needs {expected}, not {n}"))
         })?;
-        Ok(Box::new(self.answer(subject, control)?))
+        control.answered(|| self.answer(subject, control))
+    }
+}
+
+impl Control<'_> {
+    /// Computes an answer whose texts have the requested units.
+    ///
+    /// # Errors
+    /// Returns the errors of the computation.
+    pub fn answered<A: Answer>(
+        &self,
+        compute: impl FnOnce() -> Result<A, Refusal>,
+    ) -> Result<Box<dyn AnyAnswer>, Refusal> {
+        let compute = || (compute(), units());
+        let (answer, units) = if self.is_si {
+            in_units(UnitSystem::Si, compute)
+        } else {
+            in_units_of_scenes(compute)
+        };
+        let answer = answer?;
+        Ok(Box::new(AnswerInUnits { answer, units }))
     }
 }
 
 /// An answer of any type.
 pub trait AnyAnswer: Send {
-    /// Returns the answer as text, with details if they are requested, and in SI units if they are
-    /// requested.
-    fn text(&self, is_verbose: bool, is_si: bool) -> String;
+    /// Returns the answer as text, with details if they are requested.
+    fn text(&self, is_verbose: bool) -> String;
 
     /// See [`Answer::ending`].
     fn ending(&self) -> Ending;
@@ -331,29 +350,30 @@ pub trait AnyAnswer: Send {
     fn written(&self, place: &str) -> String;
 }
 
-impl<A: Answer> AnyAnswer for A {
-    fn text(&self, is_verbose: bool, is_si: bool) -> String {
-        let units = if is_si {
-            UnitSystem::Si
-        } else {
-            UnitSystem::Scene(self.units())
-        };
-        words::text(&self.words(), is_verbose, units)
+/// An answer with the units of its texts.
+struct AnswerInUnits<A> {
+    answer: A,
+    units: UnitSystem,
+}
+
+impl<A: Answer> AnyAnswer for AnswerInUnits<A> {
+    fn text(&self, is_verbose: bool) -> String {
+        in_units(self.units, || words::text(&self.answer.words(), is_verbose))
     }
 
     fn ending(&self) -> Ending {
-        Answer::ending(self)
+        in_units(self.units, || self.answer.ending())
     }
 
     fn json(&self) -> Result<String, Refusal> {
-        Answer::ending(self).json(self)
+        in_units(self.units, || self.answer.ending().json(&self.answer))
     }
 
     fn files(&self, place: &mut dyn Place) -> Result<(), Refusal> {
-        Answer::files(self, place)
+        in_units(self.units, || self.answer.files(place))
     }
 
     fn written(&self, place: &str) -> String {
-        Answer::written(self, place)
+        self.answer.written(place)
     }
 }

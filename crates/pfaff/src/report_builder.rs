@@ -24,7 +24,6 @@ use crate::plots::PlotRecorder;
 use crate::pulls::{PullTimes, PullWarning};
 use crate::questions::analyze::remedies::RemedyDocument;
 use crate::rows::{RowFault, RowSink};
-use crate::words::scene_units;
 
 /// The page lists deletions that would make non-unique reactions unique. These constants are the
 /// number of such reactions, and the number of sets tried for each reaction.
@@ -289,7 +288,7 @@ pub fn written_scene(scene: &Scene) -> WrittenScene<'_> {
     WrittenScene {
         text: scene.text(),
         inactive: scene.inactive.iter().map(ToString::to_string).collect(),
-        units: scene_units(scene),
+        units: scene.units.printed(),
         gravity: match &scene.description {
             AnyDescription::Plane(d) => d.gravity.to_vec(),
             AnyDescription::Space3(d) => d.gravity.to_vec(),

@@ -4,6 +4,7 @@
 use std::sync::{Arc, Mutex, MutexGuard, OnceLock, PoisonError};
 
 use crate::documents::AnalysisDocument;
+use model::words::read_in;
 use model::{Mechanism, Registry, System, Tolerance};
 use scene::Scene;
 
@@ -148,6 +149,8 @@ impl<'r> Start<'r> {
                 let of = (self.name.as_str(), self.text.as_str());
                 self.budget.allow_scene(of, judged.parts().1)?;
             }
+            // Texts have the same units as after the scene was read.
+            read_in(judged.parts().0.units.printed());
             return Ok(Arc::clone(judged));
         }
         // Two threads may both compute the start. They obtain the same result.

@@ -14,10 +14,11 @@ use std::path::PathBuf;
 use crate::documents::Ending;
 use crate::documents::{Gap, choice_file};
 use dynamics::{MotionFault, Plan, Sample};
+use model::words::SceneUnits;
 use model::{Mechanism, System};
 use report::{
-    FileError, MoreColumns, OutputDirectory, OutputFile, ReactionColumn, ReactionTable, SceneUnits,
-    Selection, TableError, TrajectoryTable, write_chosen, write_determined,
+    FileError, MoreColumns, OutputDirectory, OutputFile, ReactionColumn, ReactionTable, Selection,
+    TableError, TrajectoryTable, write_chosen, write_determined,
 };
 use scene::{Output, OutputUnits, Scene, WantedReactions};
 use solvability::{ChoiceError, ChosenValues, GroupNumbers, Stretches};
@@ -25,7 +26,6 @@ use solvability::{ChoiceError, ChosenValues, GroupNumbers, Stretches};
 use crate::error::StudyError;
 use crate::peaks_of_run::{FoundPeaks, PeaksOfRun};
 use crate::rows::{RowFault, RowSink};
-use crate::words::scene_units;
 
 /// Selects the rows of a run that belong to its tables. An animation may need more rows.
 #[derive(Clone, Copy, Debug)]
@@ -58,7 +58,7 @@ impl TableRows {
 pub(crate) fn table_units(scene: &Scene) -> Option<SceneUnits> {
     match scene.output.units {
         OutputUnits::Si => None,
-        OutputUnits::Scene => Some(scene_units(scene)),
+        OutputUnits::Scene => Some(scene.units.printed()),
     }
 }
 

@@ -32,6 +32,7 @@ use std::num::NonZeroUsize;
 
 use crate::documents::ToleranceDocument;
 use model::System;
+use model::words::in_same_units;
 use rayon::prelude::*;
 use scene::Scene;
 use solvability::Elasticity;
@@ -184,7 +185,11 @@ impl<'r> ToleranceStudy<'r> {
             Some(sample)
         };
         let all = 1..=samples as u64;
-        let made: Vec<Sample> = workers.install(|| all.into_par_iter().filter_map(make).collect());
+        let made: Vec<Sample> = workers.install(|| {
+            all.into_par_iter()
+                .filter_map(in_same_units(make))
+                .collect()
+        });
         Ok(ToleranceResult {
             document: self.nominal.document(options, self.list(), &made),
             samples: made,

@@ -5,6 +5,7 @@ use std::path::Path;
 use crate::documents::AnalysisDocument;
 use crate::page::{Origin, RunPage, Shows, run_page};
 use model::System;
+use model::words::in_units_of_scenes;
 use report::figures::{Labels, Marking, labelled_mechanism, png};
 use report::{Frame, Recording};
 
@@ -66,7 +67,7 @@ impl Drawing {
         scale: Option<f64>,
         control: &Control<'_>,
     ) -> Result<Self, Refusal> {
-        Self::drawn(of, (form, scale), control, document_of)
+        in_units_of_scenes(|| Self::drawn(of, (form, scale), control, document_of))
     }
 
     /// Draws the page of a start while a user drags a body. The page has no sensitivities.
@@ -74,7 +75,7 @@ impl Drawing {
     /// # Errors
     /// Returns an error if the scene has no start.
     pub fn while_dragged(of: &Start<'_>, control: &Control<'_>) -> Result<Self, Refusal> {
-        Self::drawn(of, (Form::Page, None), control, verdicts_of)
+        in_units_of_scenes(|| Self::drawn(of, (Form::Page, None), control, verdicts_of))
     }
 
     fn drawn(

@@ -2,9 +2,9 @@
 
 mod table;
 
-pub use report::SceneUnits;
-pub use table::{Cell, UnitSystem, scene_units};
-pub(crate) use table::{Scale, cells_of_table};
+pub use model::words::{SceneUnits, UnitSystem, in_units_of_scenes};
+pub use table::Cell;
+pub(crate) use table::{Scale, html_table};
 
 use std::iter;
 
@@ -66,9 +66,10 @@ impl Block {
 }
 
 /// Converts the blocks to text. Sentences follow each other. There is an empty line before
-/// headings, and around tables that have no heading.
+/// headings, and around tables that have no heading. Quantities have the units of
+/// [`model::words::units`].
 #[must_use]
-pub fn text(blocks: &[Block], is_verbose: bool, units: UnitSystem) -> String {
+pub fn text(blocks: &[Block], is_verbose: bool) -> String {
     let mut out = String::new();
     let mut before: Option<&Block> = None;
     for block in blocks {
@@ -91,10 +92,10 @@ pub fn text(blocks: &[Block], is_verbose: bool, units: UnitSystem) -> String {
             Block::Legend(words, text) => out.push_str(&wrapped(&format!("{words}: "), text)),
             Block::Heading(words) => out.push_str(&wrapped("", words)),
             Block::Sentence { lead, text } => out.push_str(&wrapped(lead, text)),
-            Block::Table(lines) => out.push_str(&table::columns(lines, units)),
+            Block::Table(lines) => out.push_str(&table::columns(lines)),
             // A detail within a detail.
             Block::Detail(inner) => {
-                out.push_str(&text(std::slice::from_ref(inner), is_verbose, units));
+                out.push_str(&text(std::slice::from_ref(inner), is_verbose));
             }
         }
         before = Some(block);
@@ -196,16 +197,16 @@ mod tests {
             Block::sentence("end"),
         ];
         let expected = "one\n- two\n\na  bc\n1  2\na: letter\nthree\n\nnext:\na  bc\n1  2\n\na  bc\n1  2\n\nend\n";
-        assert_eq!(text(&blocks, false, UnitSystem::Si), expected);
+        assert_eq!(text(&blocks, false), expected);
         let detail = [Block::sentence("one"), Block::detail("- ", "two")];
-        assert_eq!(text(&detail, false, UnitSystem::Si), "one\n");
-        assert_eq!(text(&detail, true, UnitSystem::Si), "one\n- two\n");
+        assert_eq!(text(&detail, false), "one\n");
+        assert_eq!(text(&detail, true), "one\n- two\n");
     }
 
     #[test]
     fn lines_of_a_sentence_begin_below_its_first_word() {
         let long = "word ".repeat(40);
-        let lines = text(&[Block::after("note: ", long)], false, UnitSystem::Si);
+        let lines = text(&[Block::after("note: ", long)], false);
         let widths: Vec<usize> = lines.lines().map(|line| line.chars().count()).collect();
         assert_eq!(widths.len(), 3);
         assert!(widths.iter().all(|width| *width <= 100), "{widths:?}");

@@ -21,7 +21,6 @@ pub mod peaks;
 mod recording;
 pub mod sweep;
 pub mod tables;
-mod units;
 pub mod work_precision;
 
 pub use figures::{FigureError, Panel, Path, PathRecorder, Pattern, Png, PngError, Series, Style};
@@ -38,7 +37,6 @@ pub use tables::{
     load_numbers, matrix_table, numbers_of_columns, reaction_columns, reaction_component,
     write_chosen, write_determined, write_open_bounds,
 };
-pub use units::SceneUnits;
 pub use work_precision::{
     CurveName, Place, Provenance, RankingLine, ReferenceDocument, WorkPrecisionDocument,
     WorkPrecisionRow, WorkPrecisionScene, WorkPrecisionTable, work_precision_page,

@@ -17,7 +17,7 @@ use std::iter;
 use model::codes::Code;
 use serde::Serialize;
 
-use crate::units::SceneUnits;
+use model::words::SceneUnits;
 
 pub use bounds::{BoundsTable, write_open_bounds};
 pub use loads::{LoadTable, load_columns, load_numbers};

@@ -1,14 +1,14 @@
 //! Tests pictures and tables of mechanisms in space.
 
 use joints::space3::{Axes, Revolute};
+use model::words::SceneUnits;
 use model::{
     BodyRef, Marker, Measure, MeasureKind, Mechanism, Reaction, SpaceKind, SpatialBody,
     SpatialDescription,
 };
 use pfaff_report::figures::{Marking, mechanism};
 use pfaff_report::{
-    MoreColumns, ReactionTable, SceneUnits, Selection, Trajectory, TrajectoryTable,
-    columns_of_reactions,
+    MoreColumns, ReactionTable, Selection, Trajectory, TrajectoryTable, columns_of_reactions,
 };
 use solvability::ChosenValues;
 

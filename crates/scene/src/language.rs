@@ -5,7 +5,7 @@ pub(crate) mod read;
 use std::collections::BTreeMap;
 use std::ops::Range;
 
-use model::words::rounded;
+use model::words::{SceneUnits, rounded};
 
 use crate::expression::{self, Bases, Quantity, Scope};
 
@@ -44,6 +44,19 @@ impl Units {
         length: "m",
         angle: "rad",
     };
+
+    /// Returns these units with their values, for texts and tables.
+    #[must_use]
+    pub fn printed(self) -> SceneUnits {
+        let value = |name: &'static str, si: &str| {
+            let (name, unit) = expression::unit(name).filter(|_| name != si)?;
+            Some((name, unit.to_f64()))
+        };
+        SceneUnits {
+            length: value(self.length, Self::SI.length),
+            angle: value(self.angle, Self::SI.angle),
+        }
+    }
 }
 
 /// The unit of lengths that are written without a unit.

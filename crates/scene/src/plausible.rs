@@ -12,7 +12,7 @@ mod mechanism;
 
 use model::codes::Code;
 use model::space::norm;
-use model::words::rounded;
+use model::words::{quantity, rounded};
 use model::{BodyRef, Marker};
 
 use crate::dimension::Dimension;
@@ -64,10 +64,10 @@ pub(crate) fn gravity(field: &Field, gravity: &[f64]) {
         const { Code::new(193) },
         field.span(),
         format!(
-            "{}: `{}` is {} m/s², {} times that of the Earth: {why}",
+            "{}: `{}` is {}, {} times that of the Earth: {why}",
             field.subject,
             field.key,
-            rounded(size),
+            quantity(size, "m/s²"),
             rounded(size / EARTH)
         ),
         "in another unit?",

@@ -11,6 +11,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 use linalg::{Matrix, Scaling};
 use model::start::scene_size;
+use model::words::in_same_units;
 use model::{ConfigurationAccuracy, ConstraintId, Mechanism, System, Tolerance};
 use rank::{Evidence, KeptRowsError, NearlyRedundant, RankDecision};
 use rayon::prelude::*;
@@ -264,7 +265,7 @@ pub fn analyse_decided(
 ) -> Result<Analysis, AnalysisError> {
     check_configuration(mechanism, t, q)?;
     let done = AtomicUsize::new(0);
-    let parts = decided.parts.par_iter().map(|part| {
+    let of_part = |part: &crate::rows::DecidedPart| {
         let (own, q) = (part.extent.mechanism(mechanism), part.extent.coordinates(q));
         let found = match &part.certified {
             Some(certified) => {
@@ -278,7 +279,8 @@ pub fn analyse_decided(
         let joints = own.layout().groups.len();
         progress(done.fetch_add(joints, Ordering::Relaxed) + joints);
         Ok(found.placed(mechanism, part.extent.clone()))
-    });
+    };
+    let parts = decided.parts.par_iter().map(in_same_units(of_part));
     let parts: Vec<Result<PartResults, AnalysisError>> = parts.collect();
     let judged = parts.into_iter().collect::<Result<_, _>>()?;
     Ok(Analysis::of(mechanism, t, q, judged))

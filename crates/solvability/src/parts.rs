@@ -16,6 +16,7 @@ use crate::pose::evaluated;
 use crate::row_decision::RowDecision;
 use std::borrow::Cow;
 
+use model::words::in_same_units;
 use model::{BodyRef, Mechanism, Part, Places, Scratch, System};
 use rank::{Certificate, Evidence, NearlyRedundant, RankDecision, RankStatus, cycles};
 use rayon::prelude::*;
@@ -402,10 +403,11 @@ impl Partition {
             Self::One => return Ok(vec![f(mechanism, Extent::Whole)?]),
             Self::Several(sets) => sets,
         };
-        let each = sets.par_iter().map(|groups| {
+        let of_part = |groups: &Vec<usize>| {
             let Part { mechanism, places } = mechanism.part_of_groups(groups);
             f(&mechanism, Extent::Places(places))
-        });
+        };
+        let each = sets.par_iter().map(in_same_units(of_part));
         let each: Vec<Result<T, E>> = each.collect();
         each.into_iter().collect()
     }

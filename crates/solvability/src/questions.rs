@@ -12,6 +12,7 @@ use crate::judged::ComponentVerdict;
 use crate::limits::ROWS_MAX;
 use std::sync::{Arc, OnceLock};
 
+use model::words::in_same_units;
 use model::{BodyRef, ConstraintId, Mechanism, System};
 use rayon::prelude::*;
 
@@ -457,8 +458,10 @@ impl<'a> Questions<'a> {
             });
             Ok((extent, found?))
         };
-        let parts: Vec<Result<_, ChoiceError>> =
-            (0..self.parts().len()).into_par_iter().map(share).collect();
+        let parts: Vec<Result<_, ChoiceError>> = (0..self.parts().len())
+            .into_par_iter()
+            .map(in_same_units(share))
+            .collect();
         let parts = parts.into_iter().collect::<Result<Vec<_>, _>>()?;
         let found = Distribution::of_parts(label.clone(), lambda, reactions, parts);
         Ok(found.without(&solution.no_finite))
@@ -535,7 +538,7 @@ impl<'a> Questions<'a> {
         };
         let parts: Vec<Result<_, ExplanationError>> = (0..self.parts().len())
             .into_par_iter()
-            .map(of_part)
+            .map(in_same_units(of_part))
             .collect();
         let mut all: Option<Explanation> = None;
         for part in parts {

@@ -1,7 +1,6 @@
 //! Text formatting of lists, numbers and vectors.
 
-use crate::limits::VISIBLE;
-use model::words::short;
+use model::words::vector as quantities;
 use model::{ConstraintId, Layout, Mechanism, System};
 
 /// Formats a list as "`a`, `b` and `c`" without the quotes.
@@ -19,17 +18,15 @@ pub(crate) fn vector(p: [f64; 3], size: f64) -> String {
     components(&p, size)
 }
 
-/// Formats the coordinates of a point (m) as "(0.25, −1) m" without the quotes.
+/// Formats the coordinates of a point (m) as "(0.25, −1) m" without the quotes, in the unit of the
+/// scene.
 pub(crate) fn place(p: &[f64], size: f64) -> String {
-    format!("{} m", components(p, size))
+    quantities(p, size, "m")
 }
 
 /// Formats any number of components in the same way as [`vector`].
 pub(crate) fn components(p: &[f64], size: f64) -> String {
-    let shown = p
-        .iter()
-        .map(|x| short(if x.abs() > VISIBLE * size { *x } else { 0.0 }));
-    format!("({})", shown.collect::<Vec<_>>().join(", "))
+    quantities(p, size, "")
 }
 
 /// Returns the names of joints and drives, in quotes.

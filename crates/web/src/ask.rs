@@ -101,6 +101,7 @@ pub(crate) fn answered(asked: &Ask) -> Result<String, Refusal> {
         wants_words: true,
         wants_files: directory.is_some(),
         directory: directory.as_ref(),
+        is_si: asked.si,
         ..Control::quiet()
     };
     let answer = question.as_question().ask(&scenes, &control)?;
@@ -112,7 +113,7 @@ pub(crate) fn answered(asked: &Ask) -> Result<String, Refusal> {
     let document = RawValue::from_string(answer.json()?);
     let answered = Answered {
         document: document.map_err(|e| Refusal::stopped(e.to_string()))?,
-        text: answer.text(asked.verbose, asked.si),
+        text: answer.text(asked.verbose),
         complete: answer.ending() == Ending::Complete,
     };
     serde_json::to_string(&answered).map_err(|e| Refusal::stopped(e.to_string()))

@@ -1,7 +1,7 @@
 //! Errors of the search for an equilibrium.
 
 use model::codes::Code;
-use model::words::{estimate, listed, rough, rounded};
+use model::words::{estimate, listed, quantity, rough};
 use model::{ForceWithoutDerivatives, StartError};
 
 /// An unbalanced force along a free motion.
@@ -25,7 +25,7 @@ pub struct UnbalancedForce {
 pub enum EquilibriumError {
     /// A row prescribes a velocity.
     #[error(
-        "no equilibrium: {} `{name}` prescribes {} {unit} at the start; start its function with rate zero, or deactivate it (`active = false`)", if *is_drive { "drive" } else { "joint" }, rounded(*rate))]
+        "no equilibrium: {} `{name}` prescribes {} at the start; start its function with rate zero, or deactivate it (`active = false`)", if *is_drive { "drive" } else { "joint" }, quantity(*rate, unit))]
     Prescribed {
         /// Name of the drive or joint.
         name: String,
@@ -96,8 +96,8 @@ pub(super) fn push(pushed: &[UnbalancedForce]) -> String {
             [] => String::new(),
             by => format!(" by {}", listed(by)),
         };
-        let force = rounded(pushed.force);
-        format!("{}, pushed with {force} {}{by}", pushed.motion, pushed.unit)
+        let force = quantity(pushed.force, pushed.unit);
+        format!("{}, pushed with {force}{by}", pushed.motion)
     });
     each.collect::<Vec<_>>().join("; ")
 }

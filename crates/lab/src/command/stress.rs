@@ -14,7 +14,7 @@ use clap::Args;
 use indicatif::{ProgressBar, ProgressStyle};
 use pfaff::report::{OutputDirectory, OutputFile, TableError, write_json};
 
-use pfaff::words::{self, Block, UnitSystem};
+use pfaff::words::{self, Block};
 use pfaff_cli::console::Console;
 use pfaff_cli::input::unknown;
 use pfaff_cli::interrupt::Interrupt;
@@ -96,11 +96,7 @@ fn families(arguments: &Stress) -> Result<Vec<Family>, Failure> {
 
 fn list(families: &[Family]) -> String {
     let lines = families.iter().map(|f| [f.name, f.about]);
-    words::text(
-        &[Block::table(["family", "about"], lines)],
-        false,
-        UnitSystem::Si,
-    )
+    words::text(&[Block::table(["family", "about"], lines)], false)
 }
 
 /// Runs all cases; if a stop is requested, returns the results so far.

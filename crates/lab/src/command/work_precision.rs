@@ -58,7 +58,7 @@ pub(super) fn run(arguments: &WorkPrecision, console: &Console<'_>) -> Outcome {
         hears: Hears::Stops,
     };
     asking.run(console, |control| {
-        Ok(Box::new(question.compared(&subjects, &rivals, control)?))
+        Ok(control.answered(|| question.compared(&subjects, &rivals, control))?)
     })
 }
 

@@ -1,7 +1,7 @@
 //! Description of impossible given velocities.
 
 use crate::system::RowLabel;
-use crate::words::{ROLL_TOGETHER, rough};
+use crate::words::{ROLL_TOGETHER, digits, rough, units};
 
 /// Given velocities that contradict the constraints or prescribed motions.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -85,6 +85,10 @@ impl std::fmt::Display for HeldVelocity {
     }
 }
 
+/// Number of significant digits of a given velocity. The digits are those of the scene also if the
+/// unit of the scene is not the SI unit.
+const GIVEN: usize = 15;
+
 /// Largest number of rows, and of velocities to remove, in a message.
 const NAMED: usize = 6;
 
@@ -112,12 +116,15 @@ impl VelocityConflict {
 
     fn what(&self) -> String {
         let Self {
-            body,
-            coordinate,
-            given,
-            nearest,
-            ..
+            body, coordinate, ..
         } = self;
+        let unit = if coordinate.starts_with('v') {
+            "m/s"
+        } else {
+            "rad/s"
+        };
+        let (unit, factor) = units().unprefixed(unit);
+        let [given, nearest, limit] = [self.given, self.nearest, self.limit].map(|x| x / factor);
         let held = if self.is_kept {
             "fixed by `keep` at"
         } else {
@@ -128,14 +135,10 @@ impl VelocityConflict {
         let off = if self.is_kept {
             String::new()
         } else {
-            format!(", more than {} off", rough(self.limit))
+            format!(", more than {} {unit} off", rough(limit))
         };
-        // The value is written in the format of scenes.
-        let given_as = match (format!("{given}"), format!("{given:?}")) {
-            (plain, scientific) if scientific.len() < plain.len() => scientific,
-            (plain, _) => plain,
-        };
-        let fact = format!("`{coordinate}` of body `{body}` is {held} {given_as}");
+        let given_as = digits(given, GIVEN);
+        let fact = format!("`{coordinate}` of body `{body}` is {held} {given_as} {unit}");
         if let Some(LockedBodies { bodies, joints, .. }) = &self.locked {
             let names = |all: &[String]| {
                 let quoted = all.iter().map(|name| format!("`{name}`"));
@@ -149,8 +152,8 @@ impl VelocityConflict {
             );
         }
         let nearest = format!(
-            "in consistent velocities it is {}{off}",
-            short(*nearest, *given)
+            "in consistent velocities it is {} {unit}{off}",
+            short(nearest, given)
         );
         let rows = named(&rows);
         match self.drives.as_slice() {
@@ -239,7 +242,7 @@ fn short(x: f64, beside: f64) -> String {
     } else {
         x
     };
-    crate::words::digits(x, 5)
+    digits(x, 5)
 }
 
 /// Returns the first names as a list, and the number of the remaining names.

@@ -31,7 +31,7 @@ pub enum StartError {
     #[error(
         "the start must be corrected by {correction} ({coordinate} of body `{body}`), more than the allowed {limit}: \
          as described, these constraints are violated: {}; correct the scene, or set `allow_correction = true` in `[start]`",
-        few(misfits), correction = quantity(*correction, unit), limit = short(*limit))]
+        few(misfits), correction = quantity(*correction, unit), limit = quantity(*limit, unit))]
     LargeCorrection {
         /// The body with the largest displacement.
         body: String,

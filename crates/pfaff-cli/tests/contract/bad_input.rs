@@ -406,8 +406,8 @@ fn velocities_that_contradict_the_constraints_are_refused_by_name() {
         given("position = [1.0, 0.0]\nvelocity = [0.0, 0.0]\nangular_velocity = 1.0"),
         2,
         &[
-            "`omega` of body `bob` is given as 1, which row 2 (`pivot`, y) does not allow together with the other given velocities",
-            "in consistent velocities it is 0, more than 0.001 off",
+            "`omega` of body `bob` is given as 1 rad/s, which row 2 (`pivot`, y) does not allow together with the other given velocities",
+            "in consistent velocities it is 0 rad/s, more than 0.001 rad/s off",
             "omit `angular_velocity` of body `bob`, so that it follows from the other velocities",
             "allow_correction = true",
             "not with these constraints",
@@ -438,7 +438,7 @@ fn velocities_that_contradict_the_constraints_are_refused_by_name() {
         2,
         &[
             "drive `motor` requires velocities that the given ones do not allow",
-            "`omega` of body `bob` is given as 0, and in consistent velocities it is 1",
+            "`omega` of body `bob` is given as 0 rad/s, and in consistent velocities it is 1 rad/s",
             "requires other velocities",
             "given here",
         ],

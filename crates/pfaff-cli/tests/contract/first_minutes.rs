@@ -72,7 +72,7 @@ const SLIPS: [(&str, &str, &[&str]); 8] = [
         "coupler = [0, 0]",
         "coupler = [\"coupler\", 0]",
         &[
-            "the start must be corrected by 6.116 rad (angle of body `crank`), more than the allowed 0.001: as described, these constraints are violated: `B` by 0.1 m; correct the scene, or set `allow_correction = true` in `[start]`",
+            "the start must be corrected by 350.4 deg (angle of body `crank`), more than the allowed 0.0573 deg: as described, these constraints are violated: `B` by 100 mm; correct the scene, or set `allow_correction = true` in `[start]`",
         ],
     ),
 ];

@@ -172,6 +172,43 @@ fn a_drawing_moves_as_the_same_scene_in_metres() {
     }
 }
 
+/// Sentences and errors have the units of the scene; `--si` selects SI units for them too.
+#[test]
+fn sentences_have_the_units_of_the_scene() {
+    let text = |arguments: &[&str], scene: &str| {
+        let output = with_scene(arguments, scene);
+        let text = stdout(&output) + &stderr(&output);
+        text.split_whitespace().collect::<Vec<_>>().join(" ")
+    };
+    let rough = DRAWING.replace("format = 2", "format = 2\ntolerance = 0.02");
+    let accuracy = text(&["analyze", "-"], &rough);
+    assert!(accuracy.contains("data accurate to 0.02 mm"), "{accuracy}");
+    let accuracy = text(&["analyze", "-", "--si"], &rough);
+    assert!(accuracy.contains("data accurate to 2e-5 m"), "{accuracy}");
+
+    // The point of the ground is 30 mm off the slider.
+    let open = DRAWING.replace(
+        "points = { ground = [0, 0], slider",
+        "points = { ground = [0, 30], slider",
+    );
+    for arguments in [&["check", "-"][..], &["check", "-", "--json"]] {
+        let refused = text(arguments, &open);
+        for said in [
+            "corrected by 5.412 deg (angle of",
+            "violated: `rail` by 30 mm;",
+        ] {
+            assert!(refused.contains(said), "{refused}");
+        }
+    }
+    let refused = text(&["check", "-", "--si"], &open);
+    for said in [
+        "corrected by 0.09446 rad (angle of",
+        "violated: `rail` by 0.03 m;",
+    ] {
+        assert!(refused.contains(said), "{refused}");
+    }
+}
+
 /// Every command that reads a scene accepts changed values for it.
 #[test]
 fn set_changes_the_scene_of_every_command() {

@@ -1,13 +1,12 @@
 //! The assumptions of a run in plain words: the content of the model, the omitted effects, and the
 //! accuracy of the data and of the motion. Every page of a run has this section.
 
-use model::words::{estimate, listed, rounded, short};
+use model::words::{estimate, listed, rounded, vector};
 use model::{ContactLimits, System};
 
 use super::run_page::RunPage;
 use super::verdicts;
 use crate::documents::{MisfitDocument, RunDocument};
-use crate::words::UnitSystem;
 
 pub(super) fn section(out: &mut String, page: &RunPage<'_>) {
     let Some(run) = page.run() else {
@@ -110,11 +109,7 @@ fn gravity(page: &RunPage<'_>) -> String {
     if g.iter().all(|g| *g == 0.0) {
         return "There is no gravity.".to_owned();
     }
-    let units = UnitSystem::Scene(page.scene.units);
-    let largest = g.iter().fold(0.0, |most: f64, g| most.max(g.abs()));
-    let (unit, factor) = units.unit(largest, "m/s²");
-    let numbers: Vec<String> = g.iter().map(|g| short(g / factor)).collect();
-    format!("Gravity is ({}) {unit} in ground axes.", numbers.join(", "))
+    format!("Gravity is {} in ground axes.", vector(g, 0.0, "m/s²"))
 }
 
 fn drives(page: &RunPage<'_>) -> Option<String> {

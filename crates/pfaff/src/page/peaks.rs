@@ -11,7 +11,7 @@ use crate::documents::{
     ByName, ExtremeDocument, LoadOfRunDocument, PeakDocument, RunGroupDocument, RunNumberDocument,
     TrackDocument,
 };
-use crate::words::{Scale, UnitSystem};
+use crate::words::Scale;
 use report::page::{add, safe};
 
 /// Largest number of lines of the table.
@@ -44,7 +44,7 @@ pub(super) fn table(out: &mut String, page: &RunPage<'_>) {
         return;
     }
     let numbers = lines.iter().flat_map(PeakLine::numbers);
-    let scale = Scale::new(numbers, UnitSystem::Scene(page.scene.units));
+    let scale = Scale::new(numbers);
     let [force, moment] = [FORCE, MOMENT].map(|unit| scale.unit(unit).0);
     add(
         out,
@@ -77,7 +77,7 @@ pub(super) fn determined(out: &mut String, page: &RunPage<'_>) {
         .chain(measures)
         .collect();
     let values = numbers.iter().map(|n| (n.peak.value, n.unit));
-    let scale = Scale::new(values, UnitSystem::Scene(page.scene.units));
+    let scale = Scale::new(values);
     let mut units: Vec<&'static str> = Vec::new();
     for number in &numbers {
         if !units.contains(&number.unit) {

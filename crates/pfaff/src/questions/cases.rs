@@ -20,7 +20,7 @@ use crate::run_options::RunOptions;
 use crate::source;
 use crate::start::Start;
 use crate::study;
-use crate::words::{Block, SceneUnits, scene_units};
+use crate::words::Block;
 
 /// The files that are written next to the directories of the cases.
 const FAMILY: Family = Family(&[TABLE, SUMMARY]);
@@ -71,7 +71,7 @@ impl Question for Cases {
         let scene = &assembled.scene;
         let cases = source::cases(scene, &self.only)?;
         let stems = file_stems(cases.iter().map(|case| case.name.as_str()));
-        let mut answer = CasesAnswer::new(scene.name(), scene_units(scene));
+        let mut answer = CasesAnswer::new(scene.name());
         (control.progress)(Progress::Writing(scene.name().to_owned()));
         for (k, (case, stem)) in cases.iter().zip(&stems).enumerate() {
             let note = format!(", `{}`", case.name);
@@ -137,10 +137,6 @@ fn cut(directory: &OutputDirectory, begun: Option<&str>) -> String {
 impl Answer for CasesAnswer {
     fn words(&self) -> Vec<Block> {
         words::of(self)
-    }
-
-    fn units(&self) -> SceneUnits {
-        self.units
     }
 
     fn ending(&self) -> Ending {

@@ -18,7 +18,7 @@ use crate::refusal::{Refusal, json};
 use crate::run_options::RunOptions;
 use crate::start::Start;
 use crate::study::Study;
-use crate::words::{Block, SceneUnits};
+use crate::words::Block;
 
 /// Find a static equilibrium near the start
 #[derive(Clone, Debug, Default, PartialEq, Deserialize)]
@@ -80,10 +80,6 @@ impl Question for Equilibrium {
 impl Answer for EquilibriumAnswer {
     fn words(&self) -> Vec<Block> {
         words::of(self)
-    }
-
-    fn units(&self) -> SceneUnits {
-        self.units
     }
 
     fn files(&self, place: &mut dyn Place) -> Result<(), Refusal> {

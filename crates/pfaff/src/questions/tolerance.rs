@@ -19,7 +19,7 @@ use crate::tolerance::{
     SAMPLES, ToleranceError, ToleranceOptions, ToleranceResult, ToleranceStudy, Variation,
     VariedText,
 };
-use crate::words::{Block, SceneUnits, scene_units};
+use crate::words::Block;
 
 /// Run a Monte-Carlo analysis of the tolerances
 #[derive(Clone, Debug, PartialEq, Deserialize)]
@@ -88,7 +88,6 @@ impl Question for Tolerance {
             e => Refusal::stopped(e.to_string()).coded(e.code()),
         };
         let assembled = of.assembled(control)?;
-        let units = scene_units(&assembled.scene);
         let wanted = self.elastic.requested()?;
         let (scene, mechanism) = (&assembled.scene, &assembled.mechanism);
         let reaction = |name: &str| {
@@ -137,7 +136,6 @@ impl Question for Tolerance {
         Ok(ToleranceAnswer {
             document,
             wanted: self.runs,
-            units,
             files,
         })
     }
@@ -154,9 +152,6 @@ pub struct ToleranceAnswer {
     /// Number of requested samples.
     #[serde(skip)]
     wanted: usize,
-    /// Units of the scene.
-    #[serde(skip)]
-    units: SceneUnits,
     #[serde(skip)]
     files: Vec<(&'static str, Vec<u8>)>,
 }
@@ -164,10 +159,6 @@ pub struct ToleranceAnswer {
 impl Answer for ToleranceAnswer {
     fn words(&self) -> Vec<Block> {
         words::of(&self.document)
-    }
-
-    fn units(&self) -> SceneUnits {
-        self.units
     }
 
     fn ending(&self) -> Ending {

@@ -1,8 +1,7 @@
 //! Tables of answers: cells with texts and quantities, units of columns, and the layout as text.
 
-use model::words::{Prefix, short};
-use report::SceneUnits;
-use scene::{Scene, Units, WithUnit};
+use model::words::{short, units};
+use report::page::safe;
 
 /// A number counts as a rounding error if it is below this fraction of the largest number of its
 /// column and unit. Such a number is printed as zero.
@@ -36,61 +35,23 @@ impl<T: Into<String>> From<T> for Cell {
     }
 }
 
-/// Returns the units that a scene chooses.
-#[must_use]
-pub fn scene_units(scene: &Scene) -> SceneUnits {
-    let value = |unit: &'static str, si: &str| {
-        let text = format!("1 {unit}");
-        let of = WithUnit::read(&text).filter(|_| unit != si)?;
-        Some((unit, of.in_si(1.0)))
-    };
-    SceneUnits {
-        length: value(scene.units.length, Units::SI.length),
-        angle: value(scene.units.angle, Units::SI.angle),
-    }
-}
-
-/// Units of printed quantities.
-#[derive(Clone, Copy, Debug)]
-pub enum UnitSystem {
-    /// Units of the scene, otherwise SI units with prefixes.
-    Scene(SceneUnits),
-    /// SI units without prefixes.
-    Si,
-}
-
-impl UnitSystem {
-    /// Returns the unit for numbers up to this size in an SI unit, and the value of this unit in
-    /// the SI unit.
-    #[must_use]
-    pub fn unit(&self, largest: f64, si: &str) -> (String, f64) {
-        let Self::Scene(units) = self else {
-            return (si.to_owned(), 1.0);
-        };
-        units.unit(si).unwrap_or_else(|| {
-            let Prefix { symbol, factor } = Prefix::of(largest, si);
-            (format!("{symbol}{si}"), factor)
-        })
-    }
-}
-
 /// Returns the texts of a table, column by column. The first text of each column is the header. All
 /// quantities of a table in the same SI unit have the same prefix. If all quantities of a column
 /// have the same unit, the header contains it.
-pub(crate) fn cells_of_table(lines: &[Vec<Cell>], units: UnitSystem) -> Vec<Vec<String>> {
+fn cells_of_table(lines: &[Vec<Cell>]) -> Vec<Vec<String>> {
     let n = lines.iter().map(Vec::len).max().unwrap_or(0);
     let lines: Vec<Vec<Cell>> = lines.iter().flat_map(|line| unfolded(line)).collect();
     let quantities = lines.iter().flatten().filter_map(|cell| match cell {
         Cell::Quantity(Some(value), unit) => Some((*value, *unit)),
         _ => None,
     });
-    let scale = Scale::new(quantities, units);
+    let scale = Scale::new(quantities);
     (0..n).map(|k| scale.column(&lines, k)).collect()
 }
 
 /// Aligns lines of cells in columns.
-pub(super) fn columns(lines: &[Vec<Cell>], units: UnitSystem) -> String {
-    let columns = cells_of_table(lines, units);
+pub(super) fn columns(lines: &[Vec<Cell>]) -> String {
+    let columns = cells_of_table(lines);
     let width = |cells: &Vec<String>| cells.iter().map(|cell| cell.chars().count()).max();
     let widths: Vec<usize> = columns.iter().filter_map(width).collect();
     let mut out = String::new();
@@ -101,6 +62,32 @@ pub(super) fn columns(lines: &[Vec<Cell>], units: UnitSystem) -> String {
         out.push('\n');
     }
     out
+}
+
+/// Returns a table for a page. Columns that contain words are aligned to the left.
+pub(crate) fn html_table(lines: &[Vec<Cell>]) -> String {
+    let columns = cells_of_table(lines);
+    let is_words = |text: &String| text.trim_start().starts_with(char::is_alphabetic);
+    let class = |cells: &Vec<String>| {
+        let is_name = cells.iter().skip(1).any(is_words);
+        if is_name { " class=\"name\"" } else { "" }
+    };
+    let classes = columns.iter().map(class);
+    let classes: Vec<&str> = classes.collect();
+    let mut out = "<div class=\"wide\"><table>\n".to_owned();
+    for i in 0..columns.first().map_or(0, Vec::len) {
+        let mark = if i == 0 { "th" } else { "td" };
+        let cells = columns.iter().zip(&classes).map(|(column, class)| {
+            let text = safe(column[i].trim());
+            format!("<{mark}{class}>{text}</{mark}>")
+        });
+        let cells: String = cells.collect();
+        out.push_str(&match i {
+            0 => format!("<thead><tr>{cells}</tr></thead>\n<tbody>\n"),
+            _ => format!("<tr>{cells}</tr>\n"),
+        });
+    }
+    out + "</tbody>\n</table></div>\n"
 }
 
 /// Splits lists into lines of texts.
@@ -133,17 +120,13 @@ fn folded(words: &[String]) -> Vec<Cell> {
 
 /// Prefixes of units for a set of quantities.
 pub(crate) struct Scale {
-    units: UnitSystem,
     /// SI units, each with the size of its largest number.
     largest: Vec<(&'static str, f64)>,
 }
 
 impl Scale {
     /// Chooses the prefixes for these numbers in SI units.
-    pub(crate) fn new(
-        numbers: impl IntoIterator<Item = (f64, &'static str)>,
-        units: UnitSystem,
-    ) -> Self {
+    pub(crate) fn new(numbers: impl IntoIterator<Item = (f64, &'static str)>) -> Self {
         let mut largest: Vec<(&str, f64)> = Vec::new();
         for (value, unit) in numbers {
             let size = if value.is_finite() { value.abs() } else { 0.0 };
@@ -152,7 +135,7 @@ impl Scale {
                 None => largest.push((unit, size)),
             }
         }
-        Self { units, largest }
+        Self { largest }
     }
 
     fn largest(&self, unit: &str) -> f64 {
@@ -193,7 +176,7 @@ impl Scale {
 
     /// Returns the printed unit for an SI unit, and its value in the SI unit.
     pub(crate) fn unit(&self, si: &str) -> (String, f64) {
-        self.units.unit(self.largest(si), si)
+        units().unit(self.largest(si), si)
     }
 
     /// Formats a number in the printed unit, without the unit.
@@ -224,13 +207,14 @@ fn aligned(mut cells: Vec<String>) -> Vec<String> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use model::words::{SceneUnits, UnitSystem, in_units};
 
     fn force(value: f64) -> Cell {
         Cell::quantity(value, "N")
     }
 
-    fn text(lines: &[Vec<Cell>], units: UnitSystem) -> Vec<String> {
-        let text = columns(lines, units);
+    fn text(lines: &[Vec<Cell>]) -> Vec<String> {
+        let text = columns(lines);
         text.lines().map(str::to_owned).collect()
     }
 
@@ -242,7 +226,7 @@ mod tests {
             vec!["bc".into(), force(12.5), Cell::quantity(1.25e6, "N·m")],
             vec!["d".into(), Cell::quantity(None, "N"), force(1e-12)],
         ];
-        let scene = text(&lines, UnitSystem::Scene(SceneUnits::default()));
+        let scene = text(&lines);
         assert_eq!(
             scene,
             [
@@ -252,7 +236,7 @@ mod tests {
                 "d       –         0 kN",
             ]
         );
-        let si = text(&lines, UnitSystem::Si);
+        let si = in_units(UnitSystem::Si, || text(&lines));
         assert_eq!(si[1], "a     −3401           20 N");
     }
 
@@ -270,7 +254,7 @@ mod tests {
                 Cell::quantity(2e-3, "rad"),
             ],
         ];
-        let all = text(&lines, UnitSystem::Scene(units));
+        let all = in_units(UnitSystem::Scene(units), || text(&lines));
         assert_eq!(all[0], "place (mm)  speed (mm/s)  angle (mrad)");
         assert_eq!(all[1], "1500        20            2");
     }

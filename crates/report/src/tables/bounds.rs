@@ -7,7 +7,7 @@ use std::io::{self, BufRead, Write};
 use solvability::{Stretches, VerdictTrack};
 
 use super::{ReactionColumn, Table, TableError};
-use crate::units::SceneUnits;
+use model::words::SceneUnits;
 
 /// Name of the table.
 const NAME: &str = "bounds.csv";

@@ -6,7 +6,7 @@ use std::io::Write;
 use model::{ForceMeasure, Load, Loads, SpaceKind};
 
 use super::{Column, Table, TableError};
-use crate::units::SceneUnits;
+use model::words::SceneUnits;
 
 /// Name of the table.
 const NAME: &str = "loads.csv";

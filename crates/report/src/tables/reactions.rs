@@ -9,7 +9,7 @@ use model::{ConstraintId, Mechanism, Reaction, SpaceKind, System};
 use solvability::{ChosenValues, Group, Stretches, Value, VerdictTrack};
 
 use super::{Column, Table, TableError};
-use crate::units::SceneUnits;
+use model::words::SceneUnits;
 
 /// The joints and drives that are written.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]

@@ -7,7 +7,7 @@ use std::io::Write;
 use model::{FrameState, Marker, MeasureKind, Mechanism, Scratch, SpaceKind, System};
 
 use super::{Table, TableError};
-use crate::units::SceneUnits;
+use model::words::SceneUnits;
 
 /// A column of a trajectory or of reactions. It has an owner and the name of a quantity. The text
 /// of a column is `<owner>.<quantity>`, or only the owner.

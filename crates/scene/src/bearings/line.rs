@@ -4,7 +4,7 @@
 use std::fmt;
 
 use joints::space3::{Direction, cross, dot};
-use model::words::rounded;
+use model::words::quantity;
 
 use crate::limits::MEETING;
 
@@ -29,12 +29,12 @@ pub(super) struct Offset {
 impl fmt::Display for Offset {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         if self.sine < MEETING {
-            write!(f, "is {} m away from", rounded(self.distance))
+            write!(f, "is {} away from", quantity(self.distance, "m"))
         } else {
             write!(
                 f,
-                "is inclined by {} rad to",
-                rounded(self.sine.min(1.0).asin())
+                "is inclined by {} to",
+                quantity(self.sine.min(1.0).asin(), "rad")
             )
         }
     }

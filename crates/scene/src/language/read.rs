@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 use std::ops::Range;
 
 use linalg::Dd;
+use model::words::read_in;
 
 use super::{Language, Units};
 use crate::dimension::Dimension;
@@ -95,6 +96,7 @@ impl Language {
             }
             language.parameters(&field);
         }
+        read_in(language.units.printed());
         language
     }
 

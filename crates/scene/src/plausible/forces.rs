@@ -4,7 +4,7 @@
 use joints::spec::Unit;
 use model::codes::Code;
 use model::space::norm;
-use model::words::rounded;
+use model::words::{quantity, rounded};
 use model::{Force, ForceDefinition, Function};
 
 use crate::bodies::Bodies;
@@ -95,10 +95,10 @@ pub(crate) fn spring<S: SceneSpace>(
         const { Code::new(189) },
         span,
         format!(
-            "{}: `{key}` is {} m, but at the start its ends are {} m apart, {} times as far",
+            "{}: `{key}` is {}, but at the start its ends are {} apart, {} times as far",
             table.subject,
-            rounded(free),
-            rounded(length),
+            quantity(free, "m"),
+            quantity(length, "m"),
             rounded(length / free)
         ),
         "in another unit?",

@@ -7,7 +7,7 @@ use std::collections::HashMap;
 use model::codes::Code;
 use model::reaction::ConstraintGroup;
 use model::space::norm;
-use model::words::rounded;
+use model::words::{quantity, rounded};
 use model::{BodyRecord, BodyRef, ConstraintId, DescribedBody, Mechanism, SpaceKind, System};
 
 use crate::findings::Findings;
@@ -202,12 +202,12 @@ fn far(
             const { Code::new(196) },
             entry.first_of(&keys),
             format!(
-                "joint `{}` is {} m from the centre of mass of body `{}`, {} times the size of this mechanism, {} m",
+                "joint `{}` is {} from the centre of mass of body `{}`, {} times the size of this mechanism, {}",
                 joint.group.name,
-                rounded(arm),
+                quantity(arm, "m"),
                 records[body].name,
                 rounded(arm / size),
-                rounded(size)
+                quantity(size, "m")
             ),
             "far away",
             &format!(
@@ -329,11 +329,11 @@ fn inertia(
             const { Code::new(194) },
             entry.span("inertia"),
             format!(
-                "body `{}`: with its mass of {} kg the inertia has a radius of gyration of {} m, and points of the body are up to {} m from its centre of mass",
+                "body `{}`: with its mass of {} kg the inertia has a radius of gyration of {}, and points of the body are up to {} from its centre of mass",
                 body.name,
                 rounded(body.mass),
-                rounded(radius),
-                rounded(arm)
+                quantity(radius, "m"),
+                quantity(arm, "m")
             ),
             if is_large { "too large" } else { "too small" },
             &format!(
@@ -363,10 +363,10 @@ fn dense(body: &BodyRecord, entry: &Entry, size: f64, unit: LengthUnit, findings
         const { Code::new(194) },
         entry.span("inertia"),
         format!(
-            "body `{}`: with its mass of {} kg the inertia has a radius of gyration of {} m, as a ball of {} kg/m³ has",
+            "body `{}`: with its mass of {} kg the inertia has a radius of gyration of {}, as a ball of {} kg/m³ has",
             body.name,
             rounded(body.mass),
-            rounded(gyration),
+            quantity(gyration, "m"),
             rounded(density)
         ),
         "too small",

@@ -250,11 +250,12 @@ fn a_wheel_has_no_arm_and_is_of_some_material() {
     let radius = (1.1e-6_f64 / 22.0).sqrt();
     let ball = radius * 2.5_f64.sqrt();
     let density = 22.0 / (4.0 / 3.0 * std::f64::consts::PI * ball.powi(3));
-    let [radius, density] = [radius, density].map(model::words::rounded);
+    let density = model::words::rounded(density);
     assert_eq!(
         warning.message,
         format!(
-            "body `wheel`: with its mass of 22 kg the inertia has a radius of gyration of {radius} m, as a ball of {density} kg/m³ has"
+            "body `wheel`: with its mass of 22 kg the inertia has a radius of gyration of {:.4} mm, as a ball of {density} kg/m³ has",
+            1e3 * radius
         )
     );
 }
@@ -277,7 +278,7 @@ fn units_do_not_change_what_is_plausible() {
     };
     assert_eq!(
         warning.message,
-        "body `rod`: with its mass of 3 kg the inertia has a radius of gyration of 0.000173205 m, and points of the body are up to 0.3 m from its centre of mass"
+        "body `rod`: with its mass of 3 kg the inertia has a radius of gyration of 0.1732 mm, and points of the body are up to 0.3 m from its centre of mass"
     );
     let help = warning.help.as_deref().unwrap_or_default();
     assert!(
@@ -378,7 +379,7 @@ fn a_joint_a_hundred_sizes_away_is_told() {
     let scene = read(&with(AT, &format!("points = {MM}"))).expect("a scene");
     assert_eq!(
         scene.warnings[0].message,
-        "joint `S` is 300 m from the centre of mass of body `rod`, 1732.05 times the size of this mechanism, 0.173205 m"
+        "joint `S` is 300 m from the centre of mass of body `rod`, 1732.05 times the size of this mechanism, 0.1732 m"
     );
     // Far from the origin, the distances between the points are the same.
     let moved = "position = [1000000.4, 0.0]";
@@ -491,7 +492,7 @@ fn a_spring_of_ten_free_lengths_is_reported() {
     };
     assert_eq!(
         warning.message,
-        "force `K0`: `free_length` is 0.0006 m, but at the start its ends are 0.6 m apart, 1000 times as far (and 19 more like this)"
+        "force `K0`: `free_length` is 0.6 mm, but at the start its ends are 0.6 m apart, 1000 times as far (and 19 more like this)"
     );
     assert_eq!(
         warning.help.as_deref(),

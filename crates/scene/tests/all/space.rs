@@ -925,9 +925,8 @@ fn carriers_of_wheels() {
     };
     // The bearing of the arm has another axis, or the arm has no bearing.
     let turned = |from: &str, to: &str| planetary.replace(from, to);
-    let away = "the axis of `arm bearing` is 0.001 m away from the axis of `sun bearing`";
-    let inclined =
-        "the axis of `arm bearing` is inclined by 0.001 rad to the axis of `sun bearing`";
+    let away = "the axis of `arm bearing` is 1 mm away from the axis of `sun bearing`";
+    let inclined = "the axis of `arm bearing` is inclined by 1 mrad to the axis of `sun bearing`";
     let scenes = [
         (
             turned("at = [0, 0, -0.2]", "at = [0, 1e-3, -0.2]"),

@@ -8,7 +8,7 @@ use model::{BodyRef, ConstraintId, Mechanism, System};
 use super::component::{Component, Velocities};
 use super::movement::{Line, Movement, Twist};
 use crate::words::{components, list, place};
-use model::words::short;
+use model::words::quantity;
 
 /// Describes a motion of a component. Also returns the velocities of the motion with the sign that
 /// the text implies: positive rotation, or translation along the first axis.
@@ -66,9 +66,9 @@ pub(super) fn alone(mechanism: &Mechanism, body: usize, movement: Movement, size
     match movement {
         Movement::Turn(about) => format!("{name} turns about {}", line(about)),
         Movement::Screw(about, pitch) => format!(
-            "{name} turns about {} with a pitch of {} m per turn",
+            "{name} turns about {} with a pitch of {} per turn",
             line(about),
-            short(pitch)
+            quantity(pitch, "m")
         ),
         Movement::Slide(along) => format!("{name} slides along {}", components(&own(along), 1.0)),
     }
@@ -109,9 +109,9 @@ fn sentence(of: &Component<'_>, v: &Velocities, one: usize, bodies: &[usize]) ->
             about(of, bodies, line)
         ),
         Movement::Screw(line, pitch) => format!(
-            "{names} turn{s}{together} about {} with a pitch of {} m per turn",
+            "{names} turn{s}{together} about {} with a pitch of {} per turn",
             about(of, bodies, line),
-            short(pitch)
+            quantity(pitch, "m")
         ),
         Movement::Slide(along) => {
             format!("{names} slide{s}{together} along {}", direction(of, along))

@@ -1,7 +1,7 @@
 //! Phrases that several parts of the text use.
 
 use crate::documents::{ComponentDocument, SensitivityDocument, VerdictDocument};
-use model::words::{rough, short};
+use model::words::{rough, vector};
 
 use crate::words::grouped;
 
@@ -48,14 +48,8 @@ pub(super) fn each(components: &[ComponentDocument]) -> String {
     words.collect::<Vec<_>>().join("; ")
 }
 
-/// Numbers below this fraction of the largest coordinate of a point are rounding errors and are
-/// printed as zero.
-const VISIBLE: f64 = 1e-9;
-
 /// Formats a point.
 pub(super) fn coordinates(point: &[f64]) -> String {
     let largest = point.iter().fold(0.0, |most: f64, x| most.max(x.abs()));
-    let rounded = |x: &f64| short(if x.abs() > VISIBLE * largest { *x } else { 0.0 });
-    let numbers: Vec<String> = point.iter().map(rounded).collect();
-    format!("({}) m", numbers.join(", "))
+    vector(point, largest, "m")
 }

@@ -11,7 +11,7 @@ use crate::error::OPENING;
 use crate::question::Answer;
 use crate::questions::simulate::SimulateAnswer;
 use crate::refusal::Refusal;
-use crate::words::{Block, SceneUnits};
+use crate::words::Block;
 
 /// File name of the table of all peaks.
 pub(super) const TABLE: &str = "cases.csv";
@@ -49,8 +49,6 @@ pub struct CasesAnswer {
     pub cases: Vec<CaseDocument>,
     /// The cases that are done, apart by ranks and verdicts: peaks are compared only within a set.
     pub sets: Vec<CaseSet>,
-    #[serde(skip)]
-    pub(super) units: SceneUnits,
 }
 
 /// A load case.
@@ -125,10 +123,9 @@ pub struct PeakOfCase {
 }
 
 impl CasesAnswer {
-    pub(super) fn new(scene: &str, units: SceneUnits) -> Self {
+    pub(super) fn new(scene: &str) -> Self {
         Self {
             scene: scene.to_owned(),
-            units,
             ..Self::default()
         }
     }

@@ -12,7 +12,6 @@ use serde::Serialize;
 use solvability::{ReactionValues, ReactionVerdict, Sensitivities, Value};
 
 use crate::study::Study;
-use crate::words::{SceneUnits, scene_units};
 
 /// Reactions, and the contacts that pull.
 pub(super) type Reactions = (ByName<ReactionAtRest>, Vec<PullDocument>);
@@ -68,9 +67,6 @@ pub struct EquilibriumAnswer {
     /// Text of the scene file.
     #[serde(skip)]
     pub text_at_rest: String,
-    /// Units of the scene.
-    #[serde(skip)]
-    pub units: SceneUnits,
 }
 
 /// A body at the equilibrium.
@@ -159,7 +155,6 @@ impl EquilibriumAnswer {
             loads: loads_at(mechanism, x.time, &x.q, &vec![0.0; mechanism.layout().n_v]),
             file: None,
             text_at_rest: String::new(),
-            units: scene_units(&study.scene),
         }
     }
 }

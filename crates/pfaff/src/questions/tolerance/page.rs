@@ -4,10 +4,10 @@
 use crate::documents::{
     MarkerRangeDocument, RangeDocument, ReactionRangeDocument, ToleranceDocument,
 };
-use report::page::{add, close, list, open, safe};
+use crate::words::{Cell, html_table};
+use model::words::{digits, units};
+use report::page::{add, close, list, open};
 use report::{Provenance, figures};
-
-use model::words::short;
 
 /// Largest number of reactions and markers that are drawn. The tables contain all reactions and
 /// markers.
@@ -67,85 +67,97 @@ fn reactions(page: &mut String, d: &ToleranceDocument) {
             );
         }
     }
+    let heads = [
+        "reaction",
+        "verdict as described",
+        "samples: unique",
+        "not unique",
+        "undecided",
+        "quantity",
+    ];
+    let lines = d.reactions.iter().flat_map(reaction_lines);
+    let head = cells(heads).chain(cells(RANGE)).chain(cells(["reason"]));
+    page.push_str(&html_table(&table(head, lines)));
     page.push_str(
-        "<div class=\"wide\"><table>\n<tr><th class=\"name\">reaction</th><th class=\"name\">verdict as described</th>\
-         <th>samples: unique</th><th>not unique</th><th>undecided</th><th class=\"name\">quantity</th><th>value as described</th><th>minimum</th>\
-         <th>5 %</th><th>median</th><th>95 %</th><th>maximum</th><th>mean</th><th>standard deviation</th><th>samples</th></tr>\n",
-    );
-    for reaction in &d.reactions {
-        reaction_rows(page, reaction);
-    }
-    page.push_str(
-        "</table></div>\n<p class=\"grey\">The verdicts in the columns <em>unique</em>, <em>not unique</em> and <em>undecided</em> treat the data of each sample as exact.</p>\n",
+        "<p class=\"grey\">The verdicts in the columns <em>unique</em>, <em>not unique</em> and <em>undecided</em> treat the data of each sample as exact.</p>\n",
     );
     list(page, &d.without_range());
 }
 
-/// Writes the components of a reaction, with one row of the table for each component.
-fn reaction_rows(page: &mut String, reaction: &ReactionRangeDocument) {
+/// Columns of a range.
+const RANGE: [&str; 9] = [
+    "value as described",
+    "minimum",
+    "5 %",
+    "median",
+    "95 %",
+    "maximum",
+    "mean",
+    "standard deviation",
+    "samples",
+];
+
+fn cells<const N: usize>(texts: [&str; N]) -> impl Iterator<Item = Cell> {
+    texts.map(Cell::from).into_iter()
+}
+
+fn table(
+    head: impl Iterator<Item = Cell>,
+    lines: impl Iterator<Item = Vec<Cell>>,
+) -> Vec<Vec<Cell>> {
+    std::iter::once(head.collect()).chain(lines).collect()
+}
+
+/// Returns one line of the table for each number of a reaction.
+fn reaction_lines(reaction: &ReactionRangeDocument) -> impl Iterator<Item = Vec<Cell>> + '_ {
     let verdict = match (reaction.verdict, reaction.fragile) {
         ("unique", true) => "unique, fragile".to_owned(),
         (verdict, _) => verdict.replace('_', " "),
     };
-    for (k, value) in reaction.values.iter().enumerate() {
-        let counts = reaction.verdicts;
-        if k == 0 {
-            add(
-                page,
-                format_args!(
-                    "<tr><td class=\"name\"><strong>{}</strong></td><td class=\"name\">{verdict}</td><td>{}</td><td>{}</td><td>{}</td>",
-                    safe(&reaction.name),
-                    counts.unique,
-                    counts.not_unique,
-                    counts.undecided
-                ),
-            );
-        } else {
-            page.push_str("<tr><td></td><td></td><td></td><td></td><td></td>");
-        }
+    let counts = reaction.verdicts;
+    let counts = [counts.unique, counts.not_unique, counts.undecided];
+    let own = [reaction.name.clone(), verdict].into_iter();
+    let own: Vec<String> = own.chain(counts.map(|n| n.to_string())).collect();
+    reaction.values.iter().enumerate().map(move |(k, value)| {
+        let own = own
+            .iter()
+            .map(|text| if k == 0 { text.as_str() } else { "" });
         let rigid = if value.reading == "exact" {
             ", rigid"
         } else {
             ""
         };
-        add(
-            page,
-            format_args!(
-                "<td class=\"name\">{} ({}){rigid}</td>",
-                value.name, value.unit
-            ),
-        );
-        numbers(page, value.range.as_ref(), value.reason);
-        page.push_str("</tr>\n");
-    }
+        let unknown = || value.reason.unwrap_or("no sample determines this value");
+        let reason = value.range.as_ref().map_or_else(unknown, |_| "");
+        let own = own
+            .map(Cell::from)
+            .chain([format!("{}{rigid}", value.name).into()]);
+        own.chain(range(value.range.as_ref(), value.unit))
+            .chain([reason.into()])
+            .collect()
+    })
 }
 
-/// Writes the cells of a range, or the reason why there is no range.
-fn numbers(page: &mut String, range: Option<&RangeDocument>, reason: Option<&str>) {
-    let Some(range) = range else {
-        let reason = reason.unwrap_or("no sample determines this value");
-        add(
-            page,
-            format_args!("<td colspan=\"9\" class=\"name grey\">{reason}</td>"),
-        );
-        return;
-    };
-    let [low, middle, high] = range.percentiles;
-    let described = range.described.map_or("–".to_owned(), short);
-    add(page, format_args!("<td>{described}</td>"));
-    let cells = [
-        range.least,
-        low,
-        middle,
-        high,
-        range.greatest,
-        range.mean,
-        range.deviation,
-    ];
-    for x in cells {
-        add(page, format_args!("<td>{}</td>", short(x)));
-    }
-    add(page, format_args!("<td>{}</td>", range.samples));
+/// Returns the cells of a range.
+fn range(range: Option<&RangeDocument>, unit: &'static str) -> impl Iterator<Item = Cell> {
+    let numbers = range.map_or([None; 8], |range| {
+        let [low, middle, high] = range.percentiles.map(Some);
+        let [least, greatest, mean] = [range.least, range.greatest, range.mean].map(Some);
+        let deviation = Some(range.deviation);
+        [
+            range.described,
+            least,
+            low,
+            middle,
+            high,
+            greatest,
+            mean,
+            deviation,
+        ]
+    });
+    let samples = range.map_or_else(String::new, |range| range.samples.to_string());
+    let numbers = numbers.into_iter().map(move |x| Cell::quantity(x, unit));
+    numbers.chain([samples.into()])
 }
 
 fn places(page: &mut String, d: &ToleranceDocument, clouds: &[(String, Vec<[f64; 3]>)]) {
@@ -155,77 +167,58 @@ fn places(page: &mut String, d: &ToleranceDocument, clouds: &[(String, Vec<[f64;
         page.push_str(&figures::cloud(name, places, spatial));
     }
     if !d.markers.is_empty() {
-        page.push_str(
-            "<div class=\"wide\"><table>\n<tr><th class=\"name\">marker</th><th class=\"name\">axis</th><th>position as described (m)</th>\
-             <th>minimum (m)</th><th>maximum (m)</th><th>mean displacement (mm)</th><th>largest displacement (mm)</th></tr>\n",
-        );
-        for (name, marker) in &d.markers.0 {
-            marker_rows(page, name, marker);
-        }
-        page.push_str("</table></div>\n");
+        let unit = units().unprefixed("m").0;
+        let positions = ["position as described", "minimum", "maximum"];
+        let positions = positions.map(|name| Cell::from(format!("{name} ({unit})")));
+        let displaced = cells(["mean displacement", "largest displacement"]);
+        let head = cells(["marker", "axis"]).chain(positions).chain(displaced);
+        let lines = d.markers.0.iter().flat_map(marker_lines);
+        page.push_str(&html_table(&table(head, lines)));
     }
     if !d.measures.is_empty() {
-        page.push_str(
-            "<div class=\"wide\"><table>\n<tr><th class=\"name\">measure</th><th>value as described</th><th>minimum</th><th>5 %</th>\
-             <th>median</th><th>95 %</th><th>maximum</th><th>mean</th><th>standard deviation</th><th>samples</th></tr>\n",
-        );
-        for (name, measure) in &d.measures.0 {
-            add(
-                page,
-                format_args!(
-                    "<tr><td class=\"name\">{} ({})</td>",
-                    safe(name),
-                    measure.unit
-                ),
-            );
-            numbers(page, Some(&measure.range), None);
-            page.push_str("</tr>\n");
-        }
-        page.push_str("</table></div>\n");
+        let lines = d.measures.0.iter().map(|(name, measure)| {
+            let range = range(Some(&measure.range), measure.unit);
+            cells([name.as_str()]).chain(range).collect()
+        });
+        let head = cells(["measure"]).chain(cells(RANGE));
+        page.push_str(&html_table(&table(head, lines)));
     }
+    let head = cells([
+        "body",
+        "mean displacement",
+        "largest displacement",
+        "largest rotation",
+    ]);
+    let lines = d.bodies.0.iter().map(|(name, moved)| {
+        let lengths = [moved.mean, moved.greatest].map(|x| Cell::quantity(x, "m"));
+        let turned = Cell::quantity(moved.turned, "rad");
+        cells([name.as_str()])
+            .chain(lengths)
+            .chain([turned])
+            .collect()
+    });
+    page.push_str(&html_table(&table(head, lines)));
     page.push_str(
-        "<div class=\"wide\"><table>\n<tr><th class=\"name\">body</th><th>mean displacement (mm)</th><th>largest displacement (mm)</th>\
-         <th>largest rotation (mrad)</th></tr>\n",
-    );
-    for (name, moved) in &d.bodies.0 {
-        add(
-            page,
-            format_args!(
-                "<tr><td class=\"name\">{}</td><td>{}</td><td>{}</td><td>{}</td></tr>\n",
-                safe(name),
-                short(1e3 * moved.mean),
-                short(1e3 * moved.greatest),
-                short(1e3 * moved.turned)
-            ),
-        );
-    }
-    page.push_str(
-        "</table></div>\n<p class=\"grey\">Displacements and rotations are relative to the pose described in the scene. The coordinates of free motions keep the values described in the scene.</p>\n",
+        "<p class=\"grey\">Displacements and rotations are relative to the pose described in the scene. The coordinates of free motions keep the values described in the scene.</p>\n",
     );
 }
 
-fn marker_rows(page: &mut String, name: &str, marker: &MarkerRangeDocument) {
-    for (k, axis) in ["x", "y", "z"]
-        .iter()
-        .enumerate()
-        .take(marker.described.len())
-    {
-        let name = if k == 0 { safe(name) } else { String::new() };
-        add(
-            page,
-            format_args!(
-                "<tr><td class=\"name\">{name}</td><td class=\"name\">{axis}</td><td>{:.6}</td><td>{:.6}</td><td>{:.6}</td>",
-                marker.described[k], marker.least[k], marker.greatest[k]
-            ),
-        );
-        let distances = match k {
-            0 => [marker.mean, marker.farthest].map(|x| short(1e3 * x)),
-            _ => [String::new(), String::new()],
-        };
-        let [mean, farthest] = distances;
-        add(
-            page,
-            format_args!("<td>{mean}</td><td>{farthest}</td></tr>\n"),
-        );
-    }
+/// Significant digits of a position, so that the table shows small displacements.
+const DIGITS: usize = 7;
+
+/// Returns one line of the table for each coordinate of a marker.
+fn marker_lines((name, marker): &(String, MarkerRangeDocument)) -> impl Iterator<Item = Vec<Cell>> {
+    let metres = units().unprefixed("m").1;
+    let axes = ["x", "y", "z"].iter().zip(&marker.described).enumerate();
+    axes.map(move |(k, (axis, described))| {
+        let name = if k == 0 { name.as_str() } else { "" };
+        let places = [*described, marker.least[k], marker.greatest[k]];
+        let places = places.map(|x| Cell::from(digits(x / metres, DIGITS)));
+        let displaced = [marker.mean, marker.farthest].map(|x| (k == 0).then_some(x));
+        let displaced = displaced.map(|x| match x {
+            None => "".into(),
+            x => Cell::quantity(x, "m"),
+        });
+        cells([name, axis]).chain(places).chain(displaced).collect()
+    })
 }
