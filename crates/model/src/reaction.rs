@@ -428,33 +428,31 @@ impl<'a> Reactions<'a> {
     #[must_use]
     pub fn acts_on_ground(self, id: ConstraintId) -> bool {
         let (space, place) = (self.layout().space, self.place(id));
-        // The velocity component of a column of C in one of the rigid motions. The rigid motions
+        // The velocity component of a column of C in each of the rigid motions. The rigid motions
         // are translations along the axes, and rotations about the axes through the reference point
         // of the joint.
-        let velocity = |motion: usize, column: usize| {
+        let velocities = |column: usize| {
+            let mut found = [0.0; 6];
+            self.visit_ground(column, |motion, share| found[motion] += share);
             let dof = space.dof_of(column);
-            if space.torques().contains(&motion) && space.forces().contains(&dof) {
+            if space.forces().contains(&dof) {
                 let arm = difference(self.s.bodies.origin(space.body_of(column)), place);
-                return unit_cross(space.axis_of(motion), arm)[dof];
-            }
-            let mut along = 0.0;
-            self.visit_ground(column, |component, share| {
-                if component == motion {
-                    along += share;
+                for motion in space.torques() {
+                    found[motion] = unit_cross(space.axis_of(motion), arm)[dof];
                 }
-            });
-            along
+            }
+            found
         };
         self.group(id).rows.iter().any(|row| {
-            (0..space.n_v()).any(|motion| {
-                let (mut sum, mut size) = (0.0, 0.0_f64);
-                for (column, c) in self.layout().row(self.s, row) {
-                    let term = c * velocity(motion, column);
-                    sum += term;
-                    size += term.abs();
+            let mut sums = [[0.0_f64; 2]; 6];
+            for (column, c) in self.layout().row(self.s, row) {
+                for ([sum, size], v) in sums.iter_mut().zip(velocities(column)) {
+                    *sum += c * v;
+                    *size += f64::abs(c * v);
                 }
-                f64::abs(sum) > ROUNDING * size
-            })
+            }
+            let is_moved = |[sum, size]: [f64; 2]| sum.abs() > ROUNDING * size;
+            sums.into_iter().any(is_moved)
         })
     }
 }
