@@ -47,6 +47,7 @@ mod plain;
 mod planted_matrices;
 mod planted_mechanisms;
 mod point_masses;
+mod restarts;
 mod results_as_data;
 mod robot_trolley;
 mod robots;

@@ -1,11 +1,13 @@
 //! Prepares an assembled mechanism for motion: a consistent start, a decided rank, and independent
 //! rows. The rank is decided only in this module, at a corrected state. A run does not decide the
-//! rank again.
+//! rank again. A start at another state uses the decision of the first start, if its independent
+//! rows are far from dependent there ([`Rows::carried`]).
 
 use std::sync::Arc;
 
 use model::start::{
-    CorrectionLimit, Metric, StartVelocity, assemble, consistent_velocity, nearest_configuration,
+    CorrectionLimit, Metric, StartVelocity, assemble, assemble_state, consistent_velocity,
+    nearest_configuration,
 };
 use model::{Assembly, Mechanism, Scratch, StartError, StartOptions, System};
 use rank::{KeptRowsError, RankStatus};
@@ -88,6 +90,10 @@ impl PreparedMechanism {
     /// The state is corrected like the start of a scene. At a break time, at which prescribed rates
     /// may jump, velocities before the jump become the velocities after the jump.
     ///
+    /// The decision of the first start is carried to the state ([`Rows::carried`]) where possible,
+    /// so the independent rows may differ from those of a scene that is described at the state.
+    /// Starts in between have no influence.
+    ///
     /// ```
     /// use joints::{Revolute, RevoluteAngleDrive};
     /// use model::{Body, BodyRef, Description, Function, Mechanism, StartOptions};
@@ -121,7 +127,11 @@ impl PreparedMechanism {
         };
         let prepared = |start: &StartOptions| {
             let mechanism = self.mechanism.clone().starting_at(t);
-            prepare_after(mechanism, start, &self.choice, Some(self))
+            let assembly = assemble_state(&mechanism, start)?;
+            let is_known = self.assembly.has_configuration_of(&assembly);
+            let known = self.decided.clone().filter(|_| is_known);
+            let other = self.decided.as_ref();
+            prepare_assembled((mechanism, assembly), start, &self.choice, (known, other))
         };
         let is_break = self.mechanism.layout().break_times.contains(&t);
         match prepared(&start) {
@@ -278,16 +288,28 @@ pub fn prepare_after(
     other: Option<&PreparedMechanism>,
 ) -> Result<PreparedMechanism, MotionError> {
     let assembly = assemble(&mut mechanism, start)?;
-    let bits = |q: &[f64]| -> Vec<u64> { q.iter().map(|x| x.to_bits()).collect() };
     let known = other.filter(|other| {
-        bits(&other.assembly.q) == bits(&assembly.q)
-            && other.assembly.size.to_bits() == assembly.size.to_bits()
+        other.assembly.has_configuration_of(&assembly)
             && mechanism.has_constraints_of(&other.mechanism)
     });
-    if let Some(found) = known.and_then(|other| other.decided.clone()) {
+    let known = known.and_then(|other| other.decided.clone());
+    prepare_assembled((mechanism, assembly), start, rows, (known, None))
+}
+
+/// Works like [`prepare`], for an assembled mechanism. The decisions for the configuration may be
+/// known, or carried from another configuration of the mechanism.
+fn prepare_assembled(
+    (mechanism, assembly): (Mechanism, Assembly),
+    start: &StartOptions,
+    rows: &RowChoice,
+    (known, other): (Option<Arc<Rows>>, Option<&Arc<Rows>>),
+) -> Result<PreparedMechanism, MotionError> {
+    let t = mechanism.layout().start_time;
+    let carried = || Some(Arc::new(other?.carried(&mechanism, t, &assembly.q)?));
+    if let Some(found) = known.or_else(carried) {
         return on_rows(mechanism, assembly, found, start, rows);
     }
-    let found = rows_of(&mechanism, mechanism.layout().start_time, &assembly.q)?;
+    let found = rows_of(&mechanism, t, &assembly.q)?.after(other);
     if let Some(error) = unmovable(&mechanism, &found, &assembly.q) {
         // A cause that prevents any motion is reported first, because it also causes an error of
         // the analysis.

@@ -58,6 +58,33 @@ pub struct Assembly {
     pub size: f64,
 }
 
+impl Assembly {
+    fn of(
+        mechanism: &Mechanism,
+        mut s: Scratch,
+        (q, correction): (Vec<f64>, Vec<f64>),
+        size: f64,
+    ) -> Self {
+        mechanism.pose(mechanism.layout().start_time, &q, &mut s);
+        mechanism.phi(&mut s);
+        let residual = s.phi.iter().fold(0.0_f64, |a, x| a.max(x.abs()));
+        Self {
+            q,
+            correction,
+            residual,
+            size,
+        }
+    }
+
+    /// Returns whether another assembly has the same coordinates and the same size, bit by bit.
+    #[must_use]
+    pub fn has_configuration_of(&self, other: &Self) -> bool {
+        let bits =
+            |x: &Self| -> Vec<u64> { x.q.iter().chain([&x.size]).map(|x| x.to_bits()).collect() };
+        bits(self) == bits(other)
+    }
+}
+
 /// Largest number of iterations of the assembly. The convergence is linear, and its rate depends on
 /// the size of the correction.
 const ITERATIONS: usize = 60;
@@ -96,10 +123,10 @@ pub fn assemble(mechanism: &mut Mechanism, options: &StartOptions) -> Result<Ass
     let rows = restricting_rows(mechanism);
     let weights = position_weights(mechanism, options, size)?;
     let mut s = mechanism.scratch();
-    let mut q = closest(mechanism, &mut s, (&rows, &weights), &described, size)?;
+    let q = closest(mechanism, &mut s, (&rows, &weights), &described, size)?;
     initialise(mechanism, &q);
     requirement(mechanism, &q)?;
-    let mut correction = mechanism.difference_of(&q, &described);
+    let correction = mechanism.difference_of(&q, &described);
     if options.correction == CorrectionLimit::Small {
         check_correction(mechanism, &correction, size, || {
             missing(mechanism, &described, &rows)
@@ -112,37 +139,57 @@ pub fn assemble(mechanism: &mut Mechanism, options: &StartOptions) -> Result<Ass
             Some(state) => state.q.clone(),
             None => posed(mechanism, &options.poses, &q)?,
         };
-        check_sides(mechanism, &posed, size)?;
-        // In this step all rows restrict the configuration, including rows of initial values.
-        let rows: Vec<usize> = (0..mechanism.layout().m).collect();
-        q = closest(mechanism, &mut s, (&rows, &weights), &posed, size)?;
-        let first = mechanism.layout().angles().start;
-        mechanism.elements.settle_angles(first, &mut q);
-        requirement(mechanism, &q)?;
-        correction = mechanism.difference_of(&q, &posed);
-        // Only bodies with a given pose have a weight; the other bodies follow.
-        let columns = |pose: &StartPose| mechanism.space().columns_of(pose.body);
-        let given: Vec<usize> = options.poses.iter().flat_map(columns).collect();
-        for (j, moved) in correction.iter_mut().enumerate() {
-            if options.state.is_none() && !given.contains(&j) {
-                *moved = 0.0;
-            }
-        }
-        if options.correction == CorrectionLimit::Small {
-            check_correction(mechanism, &correction, size, || {
-                missing(mechanism, &posed, &rows)
-            })?;
+        return settled(mechanism, options, size, &posed);
+    }
+    Ok(Assembly::of(mechanism, s, (q, correction), size))
+}
+
+/// Works like [`assemble`], for another state ([`StartOptions::state`]) of a mechanism that has its
+/// initial values. The initial values do not change. Without a state, the function assembles the
+/// described configuration.
+///
+/// # Errors
+/// Returns the same errors as [`assemble`].
+pub fn assemble_state(
+    mechanism: &Mechanism,
+    options: &StartOptions,
+) -> Result<Assembly, StartError> {
+    let (described, _) = mechanism.described_state();
+    let q = options.state.as_ref().map_or(&described, |state| &state.q);
+    settled(mechanism, options, scene_size(mechanism, &described), q)
+}
+
+/// Returns the configuration that is closest to other poses and satisfies all rows, including the
+/// rows of initial values.
+fn settled(
+    mechanism: &Mechanism,
+    options: &StartOptions,
+    size: f64,
+    posed: &[f64],
+) -> Result<Assembly, StartError> {
+    check_sides(mechanism, posed, size)?;
+    let weights = position_weights(mechanism, options, size)?;
+    let rows: Vec<usize> = (0..mechanism.layout().m).collect();
+    let mut s = mechanism.scratch();
+    let mut q = closest(mechanism, &mut s, (&rows, &weights), posed, size)?;
+    let first = mechanism.layout().angles().start;
+    mechanism.elements.settle_angles(first, &mut q);
+    requirement(mechanism, &q)?;
+    let mut correction = mechanism.difference_of(&q, posed);
+    // Only bodies with a given pose have a weight; the other bodies follow.
+    let columns = |pose: &StartPose| mechanism.space().columns_of(pose.body);
+    let given: Vec<usize> = options.poses.iter().flat_map(columns).collect();
+    for (j, moved) in correction.iter_mut().enumerate() {
+        if options.state.is_none() && !given.contains(&j) {
+            *moved = 0.0;
         }
     }
-    mechanism.pose(mechanism.layout().start_time, &q, &mut s);
-    mechanism.phi(&mut s);
-    let residual = s.phi.iter().fold(0.0_f64, |a, x| a.max(x.abs()));
-    Ok(Assembly {
-        q,
-        correction,
-        residual,
-        size,
-    })
+    if options.correction == CorrectionLimit::Small {
+        check_correction(mechanism, &correction, size, || {
+            missing(mechanism, posed, &rows)
+        })?;
+    }
+    Ok(Assembly::of(mechanism, s, (q, correction), size))
 }
 
 /// Checks that no gap of a one-sided joint is on the side to which it cannot open and exceeds a

@@ -252,7 +252,8 @@ pub fn analyse_with_progress(
     })
 }
 
-/// Works like [`analyse_with_progress`], for ranks that have already been decided.
+/// Works like [`analyse_with_progress`], for ranks that have already been decided. Ranks that were
+/// carried from another configuration are decided here.
 ///
 /// # Errors
 /// Returns the same errors as [`analyse`].
@@ -263,6 +264,10 @@ pub fn analyse_decided(
     decided: &crate::rows::Rows,
     progress: impl Fn(usize) + Sync,
 ) -> Result<Analysis, AnalysisError> {
+    if decided.are_carried {
+        let known = ConfigurationAccuracy::AsStored;
+        return analyse_with_progress(mechanism, t, q, known, progress);
+    }
     check_configuration(mechanism, t, q)?;
     let done = AtomicUsize::new(0);
     let of_part = |part: &crate::rows::DecidedPart| {

@@ -2,16 +2,20 @@
 //! with the independent rows. At the start, the independent rows are those of the certificate.
 //! During the motion, other rows are chosen in `f64` at the same rank.
 
+use std::borrow::Cow;
+use std::sync::Arc;
+
 use crate::error::AnalysisError;
 use crate::limits::{MOTION_CLEARANCE, ONE_ROUNDING, ROWS_MAX, SPARSE_FROM};
 use crate::pose::{
     decide, decide_dropping, decide_holonomic, dimensionless, evaluated, uncertainty,
 };
-use linalg::DdMatrix;
+use linalg::{DdMatrix, Matrix};
 use model::start::scene_size;
 use model::{ConfigurationAccuracy, Layout, Mechanism, Scratch, System};
 use rank::{
-    Doubt, Evidence, KeptRowsError, NEARLY_SINGULAR, NearlyRedundant, RankDecision, RankStatus,
+    Doubt, Evidence, KeptRowsError, NEARLY_REDUNDANT, NEARLY_SINGULAR, NearlyRedundant,
+    RankDecision, RankStatus,
 };
 
 use crate::certificate::{self, inseparable};
@@ -31,6 +35,10 @@ pub struct Rows {
     /// Decision on the rows of Φq alone.
     pub holonomic: RowDecision,
     pub(crate) parts: Vec<DecidedPart>,
+    /// The decisions at the first of several starts ([`Rows::carried`]). `None` at this start.
+    first: Option<Arc<Self>>,
+    /// Whether the decisions are those of the first start.
+    pub(crate) are_carried: bool,
 }
 
 /// The decisions of a part.
@@ -80,6 +88,45 @@ impl DecidedPart {
             refined: rows.extended,
         })
     }
+
+    /// Carries the decisions to another configuration, see [`Rows::carried`].
+    fn carried(&self, whole: &Mechanism, t: f64, q: &[f64]) -> Option<Self> {
+        let certified = self.certified.as_deref()?;
+        let (part, q) = (self.extent.mechanism(whole), self.extent.coordinates(q));
+        let s = evaluated(&part, t, &q);
+        let c = dimensionless(&part, &s, scene_size(&part, &q));
+        let [all, holonomic] = in_double(certified, &part, &s, &q);
+        let all = clearly_carried(&all, &c)?;
+        let holonomic = match part.layout().h {
+            0 => all.clone(),
+            _ => {
+                let first: Vec<usize> = (0..part.layout().m).collect();
+                clearly_carried(&holonomic, &c.select_rows(&first))?
+            }
+        };
+        Some(Self {
+            extent: self.extent.clone(),
+            all: (&all).into(),
+            holonomic: (&holonomic).into(),
+            certified: Some(Box::new([all, holonomic])),
+            refined: None,
+        })
+    }
+}
+
+/// Carries a decision to the dimensionless rows C at another configuration. Returns `None` if the
+/// kept rows are nearly redundant there, or could be [`inseparable`].
+fn clearly_carried(decision: &RankDecision, c: &Matrix) -> Option<RankDecision> {
+    let carried = rank::carried(decision, c)?;
+    let scaling = &carried.scaling;
+    let largest = |i: usize| c.row(i).iter().fold(0.0_f64, |a, x| a.max(x.abs()));
+    let rows = carried.kept.iter();
+    let rows = rows.map(|&i| scaling.row_factor(i) * largest(i));
+    let columns = scaling.cols.iter().map(|&e| f64::from(e).exp2());
+    // σ of rows with largest entry 1 and unscaled columns is at least σ_r divided by this factor.
+    let factor = rows.fold(0.0, f64::max) * columns.fold(0.0, f64::max);
+    let required = NEARLY_REDUNDANT.max(NEARLY_SINGULAR * factor);
+    (carried.evidence.sigma_r >= required).then_some(carried)
 }
 
 /// Returns the certified decisions if they are valid for `f64` numbers at the configuration of the
@@ -135,19 +182,7 @@ pub fn rows(mechanism: &Mechanism, t: f64, q: &[f64]) -> Result<Rows, AnalysisEr
     let parts = Partition::of(mechanism, t, q).map(mechanism, |part, extent| {
         DecidedPart::of(part, t, &extent.coordinates(q), extent)
     })?;
-    let sum = |of: fn(&DecidedPart) -> &RowDecision| {
-        let mut sum = RowDecision::empty();
-        for part in &parts {
-            sum.add(of(part).clone(), |k| part.extent.row(k));
-        }
-        sum.sort();
-        sum
-    };
-    Ok(Rows {
-        all: sum(|part| &part.all),
-        holonomic: sum(|part| &part.holonomic),
-        parts,
-    })
+    Ok(Rows::of(parts, false))
 }
 
 /// Returns rank and independent rows of C alone, at the configuration of the scratch.
@@ -314,6 +349,61 @@ fn of_parts<E: Send>(
 }
 
 impl Rows {
+    fn of(parts: Vec<DecidedPart>, are_carried: bool) -> Self {
+        let sum = |of: fn(&DecidedPart) -> &RowDecision| {
+            let mut sum = RowDecision::empty();
+            for part in &parts {
+                sum.add(of(part).clone(), |k| part.extent.row(k));
+            }
+            sum.sort();
+            sum
+        };
+        Self {
+            all: sum(|part| &part.all),
+            holonomic: sum(|part| &part.holonomic),
+            parts,
+            first: None,
+            are_carried,
+        }
+    }
+
+    /// Carries the decisions of the first start to time t and coordinates q of the same mechanism,
+    /// which satisfy the constraints, see [`rank::carried`]. Starts in between have no influence.
+    /// An analysis does not use the result and decides again.
+    ///
+    /// Returns `None` if the rank must be decided at q: if rows are nearly redundant there, if the
+    /// rows show another rank or other parts, within stated tolerances, and in a part that is
+    /// decided with sparse matrices.
+    #[must_use]
+    pub fn carried(self: &Arc<Self>, mechanism: &Mechanism, t: f64, q: &[f64]) -> Option<Self> {
+        let parts = &self.first().parts;
+        let is_same = match Partition::of(mechanism, t, q) {
+            Partition::One => parts.iter().all(|part| part.extent.is_whole()),
+            Partition::Several(sets) => {
+                let own = parts.iter().map(|part| part.extent.groups());
+                own.eq(sets.iter().map(Vec::as_slice))
+            }
+        };
+        if !is_same || mechanism.has_tolerances() {
+            return None;
+        }
+        let parts = parts.iter().map(|part| part.carried(mechanism, t, q));
+        Some(Self::of(parts.collect::<Option<_>>()?, true).after(Some(self)))
+    }
+
+    /// Returns these decisions as those of a start after another start of the same mechanism.
+    #[must_use]
+    pub fn after(self, other: Option<&Arc<Self>>) -> Self {
+        Self {
+            first: other.map(|other| Arc::clone(other.first())),
+            ..self
+        }
+    }
+
+    fn first(self: &Arc<Self>) -> &Arc<Self> {
+        self.first.as_ref().unwrap_or(self)
+    }
+
     /// Returns the certified decision on all rows with all dependencies. Returns `None` if the rows
     /// were decided in several parts, or with sparse matrices.
     #[must_use]
@@ -375,10 +465,14 @@ impl Rows {
             }
             let own = part.extent.mechanism(mechanism);
             let [q, v] = [part.extent.coordinates(q), part.extent.velocities(v)];
-            let [decided, holonomic] = in_double(certified, &own, &evaluated(&own, t, &q), &q);
+            let in_double = if self.are_carried {
+                Cow::Borrowed(&**certified)
+            } else {
+                Cow::Owned(in_double(certified, &own, &evaluated(&own, t, &q), &q))
+            };
             let ranks = Ranks {
-                all: &decided,
-                holonomic: &holonomic,
+                all: &in_double[0],
+                holonomic: &in_double[1],
             };
             all.extend(contradictions(&own, t, &q, &v, ranks)?);
         }
