@@ -1,5 +1,6 @@
 //! A run that Python advances step by step. A thread owns the mechanism and its motion, and does
-//! the work of each call. The calling thread checks for signals.
+//! the work of each call. The calling thread checks for signals. Another start is made on another
+//! thread, so that the motion remains if that start fails.
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, channel};
@@ -42,42 +43,54 @@ struct Shared {
     hearing: Mutex<Arc<Hearing>>,
 }
 
-/// Work for the thread. The result is another start, if the run continues there.
-type Job = Box<dyn FnOnce(&Study, &mut Motion<'_>) -> Option<Study> + Send>;
+/// Work for the thread. The result is the thread of another run, which does the further work.
+type Job = Box<dyn FnOnce(&Study, &mut Motion<'_>) -> Option<Next> + Send>;
+
+/// Hands the work over to the thread of a run.
+struct Next(Sender<Receiver<Job>>);
 
 impl Shared {
-    /// Starts a run at the start of a study.
-    fn motion<'s>(
-        &self,
-        study: &'s Study,
-        stop: &'s (dyn Fn() -> bool + Sync),
-    ) -> Result<Motion<'s>, StudyError> {
-        let options = MotionOptions {
-            t_end: study.start_time(),
-            ..self.options.clone()
-        };
-        Ok(Motion::new(&study.prepared, &options, stop)?)
-    }
-
-    /// Returns a study if a run can start there.
-    fn started(&self, study: Result<Study, StudyError>) -> Result<Study, StudyError> {
-        let study = study?;
-        self.motion(&study, &|| false)?;
-        Ok(study)
-    }
-
-    /// Does the work of all calls.
-    fn work(&self, mut study: Study, jobs: Receiver<Job>) {
-        let stop = || own(&self.hearing).has_ended();
-        loop {
-            let Ok(mut motion) = self.motion(&study, &stop) else {
+    /// Starts a run at the start of a study, on its own thread. Another run on another thread may
+    /// do the work until the new run has started; it continues if the new run cannot start.
+    fn started(
+        self: &Arc<Self>,
+        source: &Source,
+        study: Result<Study, StudyError>,
+    ) -> Result<Next, Fault> {
+        let study = study.map_err(|e| source.fault(e))?;
+        let (next, handed) = channel::<Receiver<Job>>();
+        let (answer, answered) = channel();
+        let shared = Arc::clone(self);
+        let work = move || {
+            let stop = || own(&shared.hearing).has_ended();
+            let until = MotionOptions::to(study.start_time());
+            let options = MotionOptions {
+                t_end: until.t_end,
+                output_step: until.output_step,
+                ..shared.options.clone()
+            };
+            let mut motion = match Motion::new(&study.prepared, &options, &stop) {
+                Ok(motion) => motion,
+                Err(error) => {
+                    let _ = answer.send(Err(error));
+                    return;
+                }
+            };
+            let _ = answer.send(Ok(()));
+            let Ok(jobs) = handed.recv() else {
                 return;
             };
-            let next = jobs.iter().find_map(|job| job(&study, &mut motion));
-            match next {
-                Some(next) => study = next,
-                None => return,
+            if let Some(next) = jobs.iter().find_map(|job| job(&study, &mut motion)) {
+                let _ = next.0.send(jobs);
             }
+        };
+        let thread = thread::Builder::new().stack_size(STACK);
+        let thread = thread.spawn(move || on_own_threads(work));
+        thread.map_err(|e| Refusal::stopped(format!("cannot start a thread: {e}")))?;
+        match answered.recv() {
+            Ok(Ok(())) => Ok(Next(next)),
+            Ok(Err(error)) => Err(source.fault(error.into())),
+            Err(_) => Err(Refusal::stopped("the thread of the simulator has ended".into()).into()),
         }
     }
 }
@@ -113,12 +126,9 @@ impl Simulator {
                 commands: Mutex::default(),
                 hearing: Mutex::new(Arc::new(Hearing::new())),
             });
-            let study = shared.started(Ok(study)).map_err(|e| source.fault(e))?;
+            let next = shared.started(&source, Ok(study))?;
             let (jobs, received) = channel();
-            let own = Arc::clone(&shared);
-            let work = move || on_own_threads(move || own.work(study, received));
-            let thread = thread::Builder::new().stack_size(STACK).spawn(work);
-            thread.map_err(|e| Refusal::stopped(format!("cannot start a thread: {e}")))?;
+            let _ = next.0.send(received);
             Ok(Self {
                 source,
                 overrides,
@@ -152,8 +162,7 @@ impl Simulator {
     fn reset(&self, py: Python<'_>, t: f64, q: Vec<f64>, v: Vec<f64>) -> PyResult<()> {
         let (source, shared) = (Arc::clone(&self.source), Arc::clone(&self.shared));
         self.ask(py, move |study, _| {
-            let next = shared.started(study.at(t, &q, &v));
-            Ok(((), Some(next.map_err(|e| source.fault(e))?)))
+            Ok(((), Some(shared.started(&source, study.at(t, &q, &v))?)))
         })
     }
 
@@ -180,13 +189,11 @@ impl Simulator {
             let next = AssembledScene::build(described)
                 .and_then(|assembled| assembled.prepare(&overrides))
                 .and_then(|study| study.at(t, &q, &v));
-            match shared.started(next) {
-                Ok(next) => Ok(((), Some(next))),
-                Err(error) => {
-                    own(&shared.commands).pop();
-                    Err(source.fault(error))
-                }
+            let next = shared.started(&source, next);
+            if next.is_err() {
+                own(&shared.commands).pop();
             }
+            Ok(((), Some(next?)))
         })
     }
 
@@ -231,7 +238,7 @@ impl Simulator {
     fn ask<T: Send + 'static>(
         &self,
         py: Python<'_>,
-        work: impl FnOnce(&Study, &mut Motion<'_>) -> Result<(T, Option<Study>), Fault> + Send + 'static,
+        work: impl FnOnce(&Study, &mut Motion<'_>) -> Result<(T, Option<Next>), Fault> + Send + 'static,
     ) -> PyResult<T> {
         let hearing = Arc::new(Hearing::new());
         let listening = Arc::clone(&hearing);

@@ -213,6 +213,19 @@ def test_resets_need_no_more_memory_and_give_the_same_bits() -> None:
     assert simulator.state.q.tobytes() == first
 
 
+def test_a_reset_continues_at_a_later_state() -> None:
+    simulator = pfaff.Simulator(cart_pole(0.4))
+    simulator.step(0.2)
+    there = simulator.state
+    simulator.step(0.2)
+    whole = simulator.state.q
+    simulator.reset(there)
+    assert simulator.t == there.t
+    simulator.step(0.2)
+    # Each step has an error of about the relative tolerance 1e-8.
+    np.testing.assert_allclose(simulator.state.q, whole, rtol=0.0, atol=1e-7)
+
+
 def test_a_reset_checks_the_state() -> None:
     simulator = pfaff.Simulator(cart_pole())
     simulator.step(0.1)
