@@ -277,7 +277,7 @@ pub fn analyse_decided(
                 let s = evaluated(&own, t, &q);
                 let mut rows = UncertainRows::in_double(&own, &s, &q);
                 rows.extended.clone_from(&part.refined);
-                part_verdicts(&own, &s, &rows, certified[0].clone())?
+                part_verdicts(&own, &s, &rows, rows.with_nearness(certified[0].clone()))?
             }
             None => judge_sparse(&own, &evaluated(&own, t, &q), &q)?,
         };
@@ -345,7 +345,7 @@ pub fn analyse_dropping(
         }
         let s = evaluated(part, t, q);
         let rows = UncertainRows::new(part, t, q, ConfigurationAccuracy::AsStored)?;
-        let certified = rows.decide()?;
+        let certified = rows.with_nearness(rows.decide()?);
         // Within a stated tolerance, the rank may differ from the rank of the matrix.
         let decision = if part.has_tolerances() {
             rows.dropping(&certified, &own)
@@ -403,7 +403,7 @@ fn judged_alone(
 ) -> Result<PartResults, AnalysisError> {
     if part.layout().rows() <= ROWS_MAX {
         let rows = UncertainRows::new(part, t, q, known)?;
-        let decision = rows.decide()?;
+        let decision = rows.with_nearness(rows.decide()?);
         part_verdicts(part, &evaluated(part, t, q), &rows, decision)
     } else {
         judge_sparse(part, &evaluated(part, t, q), q)

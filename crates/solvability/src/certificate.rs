@@ -9,7 +9,7 @@
 //! are refined, to distinguish numbers that vanish from small numbers.
 
 use crate::error::AnalysisError;
-use crate::limits::{ASKED, COEFFICIENT_LARGE, ROWS_MAX, SAFELY, TOLERANCE_ROWS};
+use crate::limits::{ASKED, COEFFICIENT_LARGE, NEAR_TOLD, ROWS_MAX, SAFELY, TOLERANCE_ROWS};
 use crate::pose::{dimensionless, evaluated, promising_holonomic};
 use std::borrow::Cow;
 
@@ -149,7 +149,20 @@ impl<'a> UncertainRows<'a> {
         if self.places.len() <= TOLERANCE_ROWS {
             self.know_rows(&question, &mut decision, has_tolerance);
         }
-        Ok(with_nearness(decision, nearness))
+        add_nearness(&mut decision, nearness);
+        Ok(decision)
+    }
+
+    /// Adds the distance of the data from one rank less to a decision on these rows. With a stated
+    /// tolerance, the decision contains this distance already.
+    pub(crate) fn with_nearness(&self, mut decision: RankDecision) -> RankDecision {
+        let question = self.question();
+        let is_certified = decision.evidence.certificate.is_some();
+        if is_certified && decision.is_decided() && question.tolerance().is_none() {
+            let nearness = question.nearness(decision.rank, NEAR_TOLD * self.size);
+            add_nearness(&mut decision, nearness);
+        }
+        decision
     }
 
     /// Returns independent rows and evidence for a rank from another source. Returns `None` if the
@@ -290,13 +303,12 @@ impl<'a> UncertainRows<'a> {
 }
 
 /// Adds the smallest error of the data that would lower the rank to the certificate.
-fn with_nearness(mut decision: RankDecision, nearness: Option<Nearness>) -> RankDecision {
+fn add_nearness(decision: &mut RankDecision, nearness: Option<Nearness>) {
     if let (Some(certificate), Some(near)) = (&mut decision.evidence.certificate, nearness) {
         certificate.lower_rank_here = Some(near.here);
         certificate.lower_rank_by_angles = near.by_angles;
         certificate.lower_rank_from = near.everywhere.is_finite().then_some(near.everywhere);
     }
-    decision
 }
 
 /// Returns the combination of kept rows that is closest to zero at the configuration of the
@@ -392,5 +404,6 @@ pub(crate) fn holding_together(
 /// - [`AnalysisError::State`]: t or q is not finite, or q has not n_q entries.
 /// - [`AnalysisError::Rank`]: C is not finite.
 pub fn certify(mechanism: &Mechanism, t: f64, q: &[f64]) -> Result<RankDecision, AnalysisError> {
-    UncertainRows::new(mechanism, t, q, ConfigurationAccuracy::AsStored)?.decide()
+    let rows = UncertainRows::new(mechanism, t, q, ConfigurationAccuracy::AsStored)?;
+    Ok(rows.with_nearness(rows.decide()?))
 }

@@ -124,6 +124,9 @@ impl<'a> Component<'a> {
         if y.ncols() > 1 {
             y = self.smallest(space);
             for wish in self.wishes() {
+                if y.ncols() == 1 {
+                    break;
+                }
                 y = space.restricted(&y, &space.condition(&wish)).unwrap_or(y);
             }
         }

@@ -186,10 +186,10 @@ impl Walker<'_> {
                 .for_each(|(entry, unit)| *entry *= unit);
         }
         let n = phi_q.ncols();
-        let decision = rank::decide(&phi_q, rank::Accuracy::Rounding).ok()?;
-        let kept = phi_q.select_rows(&decision.kept);
-        let free = PivotedQr::of_rows(kept).q_columns(decision.rank..n);
-        let rows = decision.kept.iter().map(|&k| self.rows.held[k]);
+        // The next correction shows whether these rows imply the other rows.
+        let kept = rank::promising_rows(&phi_q, rank::Accuracy::Rounding).ok()?;
+        let free = PivotedQr::of_rows(phi_q.select_rows(&kept)).q_columns(kept.len()..n);
+        let rows = kept.iter().map(|&k| self.rows.held[k]);
         Some((free.transpose(), rows.collect()))
     }
 

@@ -79,7 +79,7 @@ struct Lower<'q> {
 impl Question<'_> {
     /// Returns the distance (m) of the data from a rank that is one less than `rank`, if the
     /// distance is at most `limit`.
-    pub(super) fn nearness(&self, rank: usize, limit: f64) -> Option<Nearness> {
+    pub(crate) fn nearness(&self, rank: usize, limit: f64) -> Option<Nearness> {
         let lower = self.lower(rank.checked_sub(1)?, limit)?;
         Some(lower.near(&lower.walked(), &lower.kept))
     }

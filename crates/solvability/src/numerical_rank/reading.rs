@@ -15,7 +15,8 @@ use super::share::{Question, StatedTolerance};
 /// Result of the decision.
 pub(crate) struct Reading {
     pub(crate) rank: RankReading,
-    /// Distance of the data from one rank less, if the distance is small enough to be reported.
+    /// Distance of the data from one rank less, if a tolerance is stated and the distance is small
+    /// enough to be reported.
     pub(crate) nearness: Option<Nearness>,
     /// Whether the scene states a tolerance.
     pub(crate) has_tolerance: bool,
@@ -94,26 +95,21 @@ impl UncertainMatrix {
         }
         let (mut nearness, mut grounds) = (None, Grounds::WithinData);
         let tolerance = question.tolerance();
-        let metres = tolerance.map_or(0.0, |stated| stated.metres);
-        let limit = (NEAR_TOLD * question.size).max(rank::BEYOND_DOUBT * metres);
-        match (status, tolerance) {
-            (RankStatus::Decided, None) => nearness = question.nearness(rank, limit),
-            (RankStatus::Decided, Some(tolerance)) => {
-                let least = question.least_rank(rank, tolerance, limit);
-                nearness = least.nearness;
-                if least.rank < rank {
-                    grounds = Grounds::WithinTolerance;
-                }
-                rank = least.rank;
-                let from = match least.certainty {
-                    Certainty::From(length) => Some(length),
-                    _ => None,
-                };
-                if least.certainty != Certainty::Decided {
-                    status = open(question, tolerance, rank, from);
-                }
+        if let (RankStatus::Decided, Some(tolerance)) = (status, tolerance) {
+            let limit = (NEAR_TOLD * question.size).max(rank::BEYOND_DOUBT * tolerance.metres);
+            let least = question.least_rank(rank, tolerance, limit);
+            nearness = least.nearness;
+            if least.rank < rank {
+                grounds = Grounds::WithinTolerance;
             }
-            _ => {}
+            rank = least.rank;
+            let from = match least.certainty {
+                Certainty::From(length) => Some(length),
+                _ => None,
+            };
+            if least.certainty != Certainty::Decided {
+                status = open(question, tolerance, rank, from);
+            }
         }
         // A redundancy within a tolerance refers to lengths in one common unit. A short lever must
         // not be scaled up to norm one.
