@@ -2,12 +2,21 @@
 //! neither overflows nor underflows.
 //!
 //! The functions use only slices and a fixed order of summation, so that the same input gives the
-//! same bits on every platform. For the same reason they do not use `mul_add`.
+//! same bits on every platform. For the same reason they do not use `mul_add`. Loops over matrices
+//! run with the [`vectorised`] instructions of the processor, for which the functions are inlined.
 
 use crate::limits::SQUARE_MIN;
 
+/// Runs a task with the vector instructions of the current processor. The task and its functions
+/// must be inlined. The bits of the result do not depend on the processor.
+#[inline(always)]
+pub(crate) fn vectorised<T>(task: impl FnOnce() -> T) -> T {
+    pulp::Arch::new().dispatch(task)
+}
+
 /// Returns `xᵀ·y` over the shorter length, summed in four interleaved partial sums.
 #[must_use]
+#[inline(always)]
 pub fn dot(x: &[f64], y: &[f64]) -> f64 {
     let n = x.len().min(y.len());
     let (x4, x_rest) = x[..n].as_chunks::<4>();
@@ -26,6 +35,7 @@ pub fn dot(x: &[f64], y: &[f64]) -> f64 {
 }
 
 /// Computes `y ← y + s·x` over the shorter length.
+#[inline(always)]
 pub fn axpy(s: f64, x: &[f64], y: &mut [f64]) {
     for (a, b) in x.iter().zip(y) {
         *b += s * a;
@@ -33,6 +43,7 @@ pub fn axpy(s: f64, x: &[f64], y: &mut [f64]) {
 }
 
 /// Computes `z ← z + s·x + t·y` over the shortest length.
+#[inline(always)]
 pub fn axpy_both([s, t]: [f64; 2], [x, y]: [&[f64]; 2], z: &mut [f64]) {
     for ((a, b), c) in x.iter().zip(y).zip(z) {
         *c += s * a + t * b;
@@ -41,6 +52,7 @@ pub fn axpy_both([s, t]: [f64; 2], [x, y]: [&[f64]; 2], z: &mut [f64]) {
 
 /// Returns the Euclidean norm, including vectors whose squared entries overflow or underflow.
 #[must_use]
+#[inline(always)]
 pub fn norm(x: &[f64]) -> f64 {
     let sum = dot(x, x);
     if sum > SQUARE_MIN * SQUARE_MIN && sum.is_finite() {
@@ -56,6 +68,7 @@ pub fn norm(x: &[f64]) -> f64 {
 
 /// Returns the largest absolute entry, or 0 for an empty slice; NaN entries are ignored.
 #[must_use]
+#[inline(always)]
 pub fn max_abs(x: &[f64]) -> f64 {
     let larger = |largest: f64, a: f64| if a.abs() > largest { a.abs() } else { largest };
     let (x4, rest) = x.as_chunks::<4>();

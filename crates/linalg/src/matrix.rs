@@ -161,7 +161,7 @@ impl Matrix {
         transposed
     }
 
-    /// Returns the product A·B.
+    /// Returns the product A·B. Zeros of A are skipped, so B should be finite.
     ///
     /// # Panics
     /// Panics if the inner dimensions differ.
@@ -172,11 +172,17 @@ impl Matrix {
             self.nrows, self.ncols, b.nrows, b.ncols
         );
         let mut out = Self::zeros(self.nrows, b.ncols);
-        for i in 0..self.nrows {
-            for (k, &a_ik) in self.row(i).iter().enumerate() {
-                kernels::axpy(a_ik, b.row(k), out.row_mut(i));
-            }
-        }
+        kernels::vectorised(
+            #[inline(always)]
+            || {
+                for i in 0..self.nrows {
+                    let terms = self.row(i).iter().enumerate();
+                    for (k, &a_ik) in terms.filter(|(_, a_ik)| **a_ik != 0.0) {
+                        kernels::axpy(a_ik, b.row(k), out.row_mut(i));
+                    }
+                }
+            },
+        );
         out
     }
 

@@ -47,7 +47,10 @@ pub(crate) fn own(a: &Matrix) -> Vec<f64> {
     for x in scaled.as_mut_slice() {
         *x = powers::scale(*x, e);
     }
-    let (mut d, mut f) = bidiagonal(scaled);
+    let (mut d, mut f) = kernels::vectorised(
+        #[inline(always)]
+        || bidiagonal(scaled),
+    );
     let mut sigma = if diagonal::iterate(&mut d, &mut f) {
         d
     } else {
@@ -61,6 +64,7 @@ pub(crate) fn own(a: &Matrix) -> Vec<f64> {
 }
 
 /// Returns diagonal and superdiagonal of `Uᵀ·A·V` for an m×n matrix, m ≥ n.
+#[inline(always)]
 fn bidiagonal(mut a: Matrix) -> (Vec<f64>, Vec<f64>) {
     let (m, n) = (a.nrows(), a.ncols());
     let (mut d, mut f) = (vec![0.0; n], vec![0.0; n.saturating_sub(1)]);

@@ -13,7 +13,7 @@
 //! factorization, SIAM J. Sci. Comput. 17 (1996) 848–869, algorithm 4 with f = 2.
 
 use crate::limits::{COEFFICIENT_BOUND, EXCHANGE_ROUNDS};
-use linalg::{Matrix, PivotedQr, RowBasis, kernels};
+use linalg::{Matrix, RowBasis, kernels};
 
 /// A partition of the rows into a basis K and the remaining rows D.
 pub(crate) struct Basis {
@@ -98,18 +98,6 @@ pub(crate) fn exchange_all(t: &mut Matrix, kept: &mut [usize], dropped: &mut [us
         exchange(t, j, i);
         std::mem::swap(&mut kept[i], &mut dropped[j]);
     }
-}
-
-/// Computes the coefficients of the row y in terms of the factored rows, and the norm of the
-/// component of y outside the span of the factored rows; y is overwritten.
-pub(crate) fn coefficients(qr: &PivotedQr, y: &mut [f64], t: &mut [f64]) -> f64 {
-    qr.q_transpose_mul(y);
-    let (x, outside) = y.split_at_mut(t.len());
-    qr.solve_r(x);
-    for (&x_k, &i) in x.iter().zip(qr.permutation()) {
-        t[i] = x_k;
-    }
-    kernels::norm(outside)
 }
 
 /// Returns all indices in `0..m` that are not in the ascending list `rows`.

@@ -9,6 +9,7 @@ impl PivotedQr {
     ///
     /// # Panics
     /// Panics if the length of `x` is not [`PivotedQr::dimension`].
+    #[inline(always)]
     pub fn q_mul(&self, x: &mut [f64]) {
         self.assert_dimension(x);
         for k in (0..self.steps()).rev() {
@@ -76,6 +77,7 @@ impl PivotedQr {
     }
 
     /// Works like [`Self::solve_r_transpose`], if the entries of x before `first` are zero.
+    #[inline(always)]
     fn solve_r_transpose_from(&self, first: usize, x: &mut [f64]) {
         for k in first..x.len() {
             let column = self.factors.row(k);
@@ -109,13 +111,18 @@ impl PivotedQr {
     pub fn transposed_pseudo_inverse(&self) -> Matrix {
         let (n, r) = (self.dimension(), self.steps());
         let mut inverse = Matrix::zeros(r, n);
-        for (k, &row) in self.permutation().iter().take(r).enumerate() {
-            let x = inverse.row_mut(row);
-            // R⁻ᵀ·e_k is zero before entry k.
-            x[k] = 1.0;
-            self.solve_r_transpose_from(k, &mut x[..r]);
-            self.q_mul(x);
-        }
+        kernels::vectorised(
+            #[inline(always)]
+            || {
+                for (k, &row) in self.permutation().iter().take(r).enumerate() {
+                    let x = inverse.row_mut(row);
+                    // R⁻ᵀ·e_k is zero before entry k.
+                    x[k] = 1.0;
+                    self.solve_r_transpose_from(k, &mut x[..r]);
+                    self.q_mul(x);
+                }
+            },
+        );
         inverse
     }
 

@@ -55,6 +55,19 @@ pub(super) fn factor_damped(a: Matrix, damping: f64) -> PivotedQr {
 /// entry and returns the end of the column. Before that, the column has an entry of size `beside`
 /// that is not stored in the matrix.
 fn factor_with(
+    a: Matrix,
+    steps: usize,
+    beside: f64,
+    begin: impl Fn(usize, &mut [f64]) -> usize,
+) -> PivotedQr {
+    kernels::vectorised(
+        #[inline(always)]
+        || reflected(a, steps, beside, begin),
+    )
+}
+
+#[inline(always)]
+fn reflected(
     mut a: Matrix,
     steps: usize,
     beside: f64,
@@ -98,6 +111,7 @@ fn longest(lengths: &[Length], k: usize) -> usize {
 
 /// Overwrites `x` by `[β, v_1, v_2, …]` and returns τ, with `H·x = β·e_0`, `H = I − τ·v·vᵀ` and
 /// `v_0 = 1`. For a column that is already `[β, 0, …]`, τ = 0 and H = I.
+#[inline(always)]
 pub(crate) fn reflect(x: &mut [f64]) -> f64 {
     let alpha = x[0];
     if kernels::max_abs(&x[1..]) == 0.0 {
@@ -113,6 +127,7 @@ pub(crate) fn reflect(x: &mut [f64]) -> f64 {
 }
 
 /// Computes `y ← (I − τ·v·vᵀ)·y` with `v_0 = 1`. The stored entry 0 of `v` belongs to R.
+#[inline(always)]
 pub(super) fn apply(tau: f64, v: &[f64], y: &mut [f64]) {
     if tau == 0.0 {
         return;

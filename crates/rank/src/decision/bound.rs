@@ -8,7 +8,7 @@
 //! 3.1 for γ_n.
 
 use crate::limits::BOUND_SLACK;
-use linalg::{Matrix, kernels};
+use linalg::Matrix;
 
 /// Returns a lower bound on σ_r of every matrix whose distance from the r×n matrix `a` is at most
 /// `perturbation` (Frobenius norm). The right inverse X is given by its r columns. The bound is 0
@@ -21,9 +21,10 @@ pub(super) fn smallest_singular_value(a: &Matrix, x: &Matrix, perturbation: f64)
     if r > n {
         return 0.0;
     }
-    let e = Matrix::from_fn(r, r, |i, l| {
-        f64::from(u8::from(i == l)) - kernels::dot(a.row(i), x.row(l))
-    });
+    let mut e = a.product(&x.transpose());
+    for i in 0..r {
+        e[(i, i)] -= 1.0;
+    }
     // Norms ignore NaN, so NaN is tested separately.
     if x.first_non_finite().is_some() || e.first_non_finite().is_some() {
         return 0.0;

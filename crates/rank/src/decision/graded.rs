@@ -97,7 +97,7 @@ impl RowLevels {
             let (kept, left) = (rows_of(&step.kept), rows_of(&step.dropped));
             let rows = normal.select_rows(&step.kept).hi();
             g.levels.push(Level {
-                inverse: g.inverse_with(&rows, &step.factored),
+                inverse: g.inverse_with(&rows, &step),
                 factored: step.factored.clone(),
                 rows,
                 exponent,
@@ -180,11 +180,10 @@ impl RowLevels {
         Matrix::from_fn(rows.len(), last.ncols(), |i, j| rows[i][j])
     }
 
-    /// Returns `(A⁺)ᵀ`. A contains the rows of all levels so far and of one further, factored
-    /// level.
-    fn inverse_with(&self, rows: &Matrix, factored: &PivotedQr) -> Matrix {
+    /// Returns `(A⁺)ᵀ`. A contains the rows of all levels so far and of one further level.
+    fn inverse_with(&self, rows: &Matrix, step: &LevelReduction) -> Matrix {
         match self.levels.len() {
-            0 => factored.transposed_pseudo_inverse(),
+            0 => step.inverse.clone(),
             n => PivotedQr::of_rows(self.stacked(n, rows)).transposed_pseudo_inverse(),
         }
     }
@@ -267,8 +266,9 @@ impl RowLevels {
 struct LevelReduction {
     kept: Vec<usize>,
     dropped: Vec<usize>,
-    /// Factors of `S_K`.
+    /// Factors of `S_K`, and `(S_K⁺)ᵀ`.
     factored: PivotedQr,
+    inverse: Matrix,
     t: DdMatrix,
     /// `S_D − T·S_K`.
     outside: DdMatrix,
@@ -284,19 +284,18 @@ impl LevelReduction {
         let mut t = DdMatrix::from(&basis.t);
         let (s_kept, s_dropped) = (s.select_rows(&basis.kept), s.select_rows(&basis.dropped));
         let mut outside = residual(&s_dropped, &t, &s_kept);
-        let mut correction = vec![0.0; rank];
+        let factored = rows.into_factored();
+        let inverse = factored.transposed_pseudo_inverse();
+        let columns = inverse.transpose();
         for _ in 0..CORRECTIONS_MAX {
-            let mut largest = 0.0_f64;
+            let correction = outside.hi().product(&columns);
             for j in 0..basis.dropped.len() {
-                let mut y: Vec<f64> = outside.row(j).iter().map(|x| x.to_f64()).collect();
-                strong_basis::coefficients(rows.factored(), &mut y, &mut correction);
-                for (t, &x) in t.row_mut(j).iter_mut().zip(&correction) {
+                for (t, &x) in t.row_mut(j).iter_mut().zip(correction.row(j)) {
                     *t += Dd::from(x);
-                    largest = largest.max(x.abs());
                 }
             }
             outside = residual(&s_dropped, &t, &s_kept);
-            if largest <= Dd::EPSILON {
+            if correction.max_abs() <= Dd::EPSILON {
                 break;
             }
         }
@@ -307,7 +306,8 @@ impl LevelReduction {
                 + f64::MIN_POSITIVE,
             kept: basis.kept,
             dropped: basis.dropped,
-            factored: rows.into_factored(),
+            factored,
+            inverse,
             t,
             outside,
         }

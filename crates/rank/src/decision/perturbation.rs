@@ -24,18 +24,15 @@ pub(super) fn row_noise(
         let kept = decision.scaling.apply(c).select_rows(&decision.kept);
         PivotedQr::of_rows(kept).transposed_pseudo_inverse()
     });
+    let sizes = |of: &Matrix| Matrix::from_fn(of.nrows(), of.ncols(), |i, j| of[(i, j)].abs());
+    let mut moved = sizes(&decision.coefficients).product(&u.select_rows(&decision.kept));
     for (j, &dropped) in decision.dropped.iter().enumerate() {
-        let mut moved = u.row(dropped).to_vec();
-        for (i, &kept) in decision.kept.iter().enumerate() {
-            kernels::axpy(decision.coefficients[(j, i)].abs(), u.row(kept), &mut moved);
-        }
-        for (i, &kept) in decision.kept.iter().enumerate() {
-            let shift: f64 = moved
-                .iter()
-                .zip(inverse.row(i))
-                .map(|(u, x)| u * x.abs())
-                .sum();
-            noise[kept] = noise[kept].hypot(shift);
+        kernels::axpy(1.0, u.row(dropped), moved.row_mut(j));
+    }
+    let shifts = moved.product(&sizes(&inverse.transpose()));
+    for j in 0..shifts.nrows() {
+        for (&kept, shift) in decision.kept.iter().zip(shifts.row(j)) {
+            noise[kept] = noise[kept].hypot(*shift);
         }
     }
     noise
