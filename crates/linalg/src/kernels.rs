@@ -3,7 +3,7 @@
 //!
 //! The functions use only slices and a fixed order of summation, so that the same input gives the
 //! same bits on every platform. For the same reason they do not use `mul_add`. Loops over matrices
-//! run with the [`vectorised`] instructions of the processor, for which the functions are inlined.
+//! run with the vector instructions of the processor, for which the functions are inlined.
 
 use crate::limits::SQUARE_MIN;
 
