@@ -10,7 +10,7 @@ use std::thread;
 use numpy::{IntoPyArray, PyArray1};
 use pfaff::documents::EventDocument;
 use pfaff::dynamics::{MotionError, MotionOptions, Simulator as Motion};
-use pfaff::forked::on_own_threads;
+use pfaff::forked::on_this_thread;
 use pfaff::model::System;
 use pfaff::refusal::{Refusal, json};
 use pfaff::report::part_as_json;
@@ -85,7 +85,7 @@ impl Shared {
             }
         };
         let thread = thread::Builder::new().stack_size(STACK);
-        let thread = thread.spawn(move || on_own_threads(work));
+        let thread = thread.spawn(move || on_this_thread(work));
         thread.map_err(|e| Refusal::stopped(format!("cannot start a thread: {e}")))?;
         match answered.recv() {
             Ok(Ok(())) => Ok(Next(next)),

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import multiprocessing
+import os
 import pickle
 import resource
 import signal
@@ -374,6 +375,25 @@ def test_a_simulator_belongs_to_its_process() -> None:
     child = context.Process(target=_step, args=(simulator, out))
     child.start()
     assert "belongs to the process" in out.get(timeout=60)
+    child.join()
+
+
+def _many(out: Any) -> None:
+    simulators = [pfaff.Simulator(cart_pole()) for _ in range((os.cpu_count() or 1) + 1)]
+    for simulator in simulators:
+        simulator.step(0.1)
+        simulator.reset()
+    out.put([simulator.t for simulator in simulators])
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="no fork")
+def test_a_forked_process_has_more_simulators_than_cores() -> None:
+    pfaff.Simulator(cart_pole()).step(0.1)
+    context = multiprocessing.get_context("fork")
+    out = context.Queue()
+    child = context.Process(target=_many, args=(out,), daemon=True)
+    child.start()
+    assert set(out.get(timeout=60)) == {0.0}
     child.join()
 
 
