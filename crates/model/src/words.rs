@@ -222,6 +222,10 @@ pub fn range(least: f64, greatest: f64, unit: &str) -> String {
     )
 }
 
+/// A component of a vector below this share of the size of the mechanism is rounding. Too small:
+/// rounding errors are printed. Too large: small numbers are not printed.
+const VISIBLE: f64 = 1e-9;
+
 /// Formats a vector of quantities in the unit of the scene, otherwise in the SI unit without
 /// prefix. Components below 1e-9 of `size` are rounding errors and are printed as zero.
 ///
@@ -231,7 +235,7 @@ pub fn range(least: f64, greatest: f64, unit: &str) -> String {
 #[must_use]
 pub fn vector(x: &[f64], size: f64, unit: &str) -> String {
     let (unit, factor) = units().unprefixed(unit);
-    let visible = |x: &f64| if x.abs() > 1e-9 * size { *x } else { 0.0 };
+    let visible = |x: &f64| if x.abs() > VISIBLE * size { *x } else { 0.0 };
     let components: Vec<String> = x.iter().map(|x| short(visible(x) / factor)).collect();
     format!("({}) {unit}", components.join(", "))
         .trim_end()
@@ -272,6 +276,12 @@ mod tests {
         ] {
             assert_eq!(estimate(metres, "m"), said);
         }
+    }
+
+    #[test]
+    fn rounding_errors_of_vectors_are_zero() {
+        let text = |x: f64| vector(&[0.0, x], 2.0, "m");
+        assert_eq!([text(1e-9), text(-4e-9)], ["(0, 0) m", "(0, −4e-9) m"]);
     }
 
     #[test]

@@ -209,6 +209,32 @@ fn sentences_have_the_units_of_the_scene() {
     }
 }
 
+/// A comparison prints lengths and angles in the units of its first scene.
+#[test]
+fn the_first_scene_states_the_units_of_a_comparison() {
+    let folder = Folder::new("language-comparison");
+    std::fs::create_dir_all(&folder.0).expect("a folder");
+    let slow = DRAWING.replace("rate = 90", "rate = 45");
+    let scenes = [("drawing.toml", slow), ("metres.toml", in_metres())];
+    let [drawing, metres] = scenes.map(|(name, text)| {
+        let path = folder.0.join(name);
+        std::fs::write(&path, text).expect("a scene");
+        path.display().to_string()
+    });
+    let head = |scenes: [&str; 2]| {
+        let text = stdout(&pfaff(&["diff", scenes[0], scenes[1]]));
+        let head = text.lines().find(|line| line.starts_with("body "));
+        head.unwrap_or_else(|| panic!("{text}")).to_owned()
+    };
+    let units = head([&drawing, &metres]);
+    assert!(
+        units.contains("place (mm)") && units.contains("angle (deg)"),
+        "{units}"
+    );
+    let units = head([&metres, &drawing]);
+    assert!(units.contains("angle (rad)"), "{units}");
+}
+
 /// Every command that reads a scene accepts changed values for it.
 #[test]
 fn set_changes_the_scene_of_every_command() {
