@@ -49,7 +49,7 @@ pub(crate) fn remarks(degrees: &Suspects, radians: &Suspects) -> Vec<String> {
     let mut out = Vec::new();
     if let Some(told) = degrees.told() {
         out.push(format!(
-            "Does this file use degrees? {told}, more than one revolution; angles are read in rad."
+            "Does this file use degrees? {told}, which is more than one revolution. Angles are read in rad."
         ));
     }
     if let Some(told) = radians.told() {

@@ -123,7 +123,7 @@ impl RecordedEquations {
         let space = mechanism.space();
         assert!(
             matches!(space, SpaceKind::Plane | SpaceKind::Space3),
-            "bodies with an angle or a quaternion, not {space:?}"
+            "the bodies of {space:?} have neither an angle nor a quaternion"
         );
         let layout = mechanism.layout();
         let n_functions = mechanism.elements.given.len();

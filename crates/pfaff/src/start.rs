@@ -264,7 +264,7 @@ pub(crate) fn asked_time(asked: f64, start_time: f64) -> Result<f64, Refusal> {
     )))
 }
 
-/// Returns the document of a configuration without results for further questions.
+/// Returns the document of a configuration. It has only the results of `analyze` without options.
 ///
 /// # Errors
 /// Returns an error if a verdict cannot be explained.

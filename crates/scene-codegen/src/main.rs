@@ -45,7 +45,10 @@ fn main() -> ExitCode {
             ExitCode::SUCCESS
         }
         Err(e) => {
-            #[expect(clippy::print_stderr, reason = "a program prints its actions not do")]
+            #[expect(
+                clippy::print_stderr,
+                reason = "a program prints the actions that failed"
+            )]
             {
                 eprintln!("error: {e}");
             }

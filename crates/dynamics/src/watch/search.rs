@@ -103,8 +103,8 @@ impl<'m> SingularitySearch<'m> {
     }
 
     /// Returns whether the pivots fall, or the bordered determinant has changed its sign, at one of
-    /// a few times. Each time costs a factorisation, until the result is true. Returns `true` in
-    /// case of doubt.
+    /// a few instants. C is factorised at each instant up to the first at which this is true.
+    /// Returns `true` in case of doubt.
     fn is_promising(
         &mut self,
         [now, end]: [f64; 2],

@@ -116,8 +116,8 @@ struct Dop853Step<'a, O> {
 }
 
 impl<O: Ode> Dop853Step<'_, O> {
-    /// Writes `y0 + h·Σ a_sj·k_j` to y. `used` lists the indices j of the nonzero coefficients, and
-    /// `k` begins with stage 1.
+    /// Writes `y0 + h·Σ a_sj·k_j` to y. `used` lists the indices j of the nonzero coefficients.
+    /// The first entry of `k` is k_1.
     #[inline]
     fn argument<const N: usize>(&self, s: usize, used: [usize; N], k: &[Vec<f64>], y: &mut [f64]) {
         let of = |j: usize| if j == 0 { self.start.f0 } else { &k[j - 1][..] };

@@ -104,8 +104,8 @@ pub struct FailureDocument {
 pub struct DescribedDocument {
     /// Number of rows.
     pub rows: usize,
-    /// Rank of the described mechanism; if it is undecided, the lower rank, at which samples are
-    /// assembled.
+    /// Rank of the described mechanism. If the rank is undecided, this is the smaller of the two
+    /// possible ranks; the samples are assembled with this rank.
     pub rank: usize,
     /// Number of rows minus the rank.
     pub redundancy: usize,

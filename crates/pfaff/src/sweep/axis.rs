@@ -219,7 +219,7 @@ impl FromStr for Axis {
     }
 }
 
-/// A number of an axis in its written form.
+/// A value of a swept parameter, as the user has written it.
 #[derive(Clone, Copy)]
 struct Number<'a> {
     number: f64,

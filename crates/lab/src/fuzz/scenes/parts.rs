@@ -20,8 +20,8 @@ pub(super) fn begin(draft: &mut Draft, values: &mut Values<'_>, kind: &'static s
     draft.joints.push((name, kind));
 }
 
-/// Adds the point of a joint between two bodies. The point is mostly a global point, which is
-/// consistent with any initial configuration.
+/// Adds the point of a joint between two bodies. In most scenes the point is given in ground axes,
+/// so that the joint is consistent with any initial configuration.
 pub(super) fn place(draft: &mut Draft, values: &mut Values<'_>, pair: &[String; 2]) {
     let line = if values.numbers.once_in(8) {
         format!(

@@ -49,6 +49,6 @@ pub(in super::super) enum HullError {
     Limits,
     /// There are too many sets.
     Many,
-    /// This number of coordinates y does not change any component.
+    /// No component depends on `free` of the coordinates y.
     Free { free: usize },
 }

@@ -2,7 +2,8 @@
 //!
 //! The part is computed by a linear program over the averages of the points. The columns of the
 //! program are generated. The value of the number at each point is reduced by the conditions with
-//! the multipliers of the points known so far. The point with the smallest reduced value enters.
+//! the multipliers of the points known so far. The point with the smallest reduced value is the
+//! next column.
 //! See G. B. Dantzig and P. Wolfe, Operations Research 8 (1960) 101–111.
 
 use linalg::Matrix;
