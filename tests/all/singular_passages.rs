@@ -8,7 +8,8 @@ use dynamics::{
 };
 use joints::RevoluteAngleDrive;
 use model::start::CorrectionLimit;
-use model::{BodyRef, Drive, Function, Mechanism, StartOptions};
+use model::{BodyRef, Drive, Function, Mechanism, Registry, StartOptions};
+use pfaff::{RunOptions, Study};
 use tests::cranks::cranks;
 use tests::robot::{robot, robot_of_size, steering, steering_of_size};
 
@@ -205,6 +206,60 @@ fn size_and_place_do_not_matter() {
                 ["B", "C", "W1", "W2", "W3", "W4"],
                 "size {size}, offset {offset}"
             );
+        }
+    }
+}
+
+/// A lift whose rod is shorter than the distance to its dead centre. The crank turns back at
+/// `cos θ = (L − 0.15)/0.1`, close to the singular configuration θ = 0 of the rod of 0.25 m, and the
+/// table moves to the other side of the crankpin. Longer rods let the crank pass.
+#[test]
+fn a_crank_that_turns_back_close_to_a_singular_configuration_continues() {
+    let lift = |length: f64| {
+        let text = format!(
+            r#"
+scene = {{ format = 2, name = "lift", space = "plane", gravity = [0.0, -9.81] }}
+parameters = {{ r = 0.1, L = {length:?}, e = -0.15, start = "-60 deg", h = "sqrt(L^2 - (e - r*cos(start))^2)" }}
+body = [
+  {{ name = "crank", mass = 2.0, inertia = 0.01, angle = "start" }},
+  {{ name = "rod", mass = 0.5, inertia = "0.5*L^2/12", position = ["(e + r*cos(start))/2", "r*sin(start) + h/2"], angle = "atan2(h, e - r*cos(start))" }},
+  {{ name = "table", mass = 20.0, inertia = 0.1, position = ["e", "r*sin(start) + h"] }},
+]
+joint = [
+  {{ name = "shaft", type = "revolute", bodies = ["ground", "crank"], at = [0.0, 0.0] }},
+  {{ name = "crankpin", type = "revolute", bodies = ["crank", "rod"], at = ["r*cos(start)", "r*sin(start)"] }},
+  {{ name = "wristpin", type = "revolute", bodies = ["rod", "table"], at = ["e", "r*sin(start) + h"] }},
+  {{ name = "guide", type = "translational", bodies = ["ground", "table"], at = ["e", 0.0], axis = [0.0, 1.0] }},
+]
+drive = [
+  {{ name = "motor", joint = "shaft", type = "angle", torque = "33.0 - 400.0*(measure - 40 deg) - 30.0*rate" }},
+  {{ name = "friction", joint = "guide", type = "displacement", force = "-50.0*rate" }},
+]
+simulate = {{ t_end = 3.0, output_step = 0.02 }}
+output = {{ reactions = false }}
+"#
+        );
+        let registry = Registry::standard();
+        Study::read("lift.toml", &text, &registry, &RunOptions::default()).expect("starts")
+    };
+    for length in [0.249, 0.2492, 0.2495, 0.2499, 0.24999, 0.2501] {
+        let study = lift(length);
+        let options = study.options.clone().expect("an end");
+        let (mut highest, mut side) = (f64::NEG_INFINITY, 0.0);
+        let summary = simulate(&study.prepared, &options, |row| {
+            highest = row.q[2].max(highest);
+            side = row.q[7] - 0.1 * row.q[2].sin();
+            Ok(ControlFlow::Continue(()))
+        });
+        let summary = summary.unwrap_or_else(|e| panic!("{length}: {}", e.error));
+        assert_eq!(summary.t, 3.0);
+        if length < 0.25 {
+            let last = -((length - 0.15) / 0.1_f64).acos();
+            assert!(highest < last + 1e-9, "{length}: {highest} beyond {last}");
+            assert!(highest > last - 0.01, "{length}: {highest} far from {last}");
+            assert!(side < 0.0, "{length}: {side}");
+        } else {
+            assert!(highest > 0.5 && side > 0.0, "{length}: {highest}, {side}");
         }
     }
 }

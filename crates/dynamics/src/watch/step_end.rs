@@ -246,6 +246,10 @@ impl Monitors {
             self.delicate = Some(delicate);
             return Next::Reject;
         }
+        // A motion that turns close to a singular configuration continues from step to step.
+        if remains_to_be_seen && self.passage.is_continued_by(now, mass) {
+            self.passage.enter(now);
+        }
         self.enter(equations, now);
         Next::Accept
     }
