@@ -1,10 +1,10 @@
 //! Chooses the method of a run if the user does not specify a method.
 
-use linalg::{Matrix, SaddleError};
+use linalg::{Eigenpair, Matrix, SaddleError, eigenpairs};
 use model::words::rough;
 
 use crate::error::MotionFault;
-use crate::limits::{POWER_ITERATIONS, STABLE, STIFF};
+use crate::limits::{GAP, GAP_RTOL, POWER_ITERATIONS, STABLE, STIFF, STIFF_DECAY};
 use crate::motion::KeptRowMotion;
 use crate::options::{Method, MotionOptions, Stabilisation};
 use crate::plan::Decision;
@@ -27,7 +27,7 @@ pub(crate) fn method(
     if may_be_implicit && prepared.is_function_of_time(options) {
         return explicit("the state is a function of time: no free motion can be stiff");
     }
-    if options.method.needs_independent_coordinates() && prepared.is_schur() {
+    if options.method.needs_independent_coordinates() && prepared.is_schur(options.method) {
         let rows = prepared.decision.kept.len();
         return Err(MotionFault::Saddle {
             time: 0.0,
@@ -48,27 +48,45 @@ pub(crate) fn method(
         let why = format!("{force} for implicit methods; stiffness was not estimated");
         return explicit(&why);
     }
-    if prepared.is_schur() {
-        return explicit(
-            "the Schur complement, used for many free motions, requires an explicit method; stiffness was not estimated",
-        );
+    if !prepared.estimates_stiffness() {
+        return explicit("stiffness was not estimated, because many motions are free");
     }
     if options.stabilisation != Stabilisation::Projection {
         return explicit("implicit methods need projection");
     }
-    let steps = fastest_rate(prepared)? * (options.t_end - prepared.start_time()) / STABLE;
-    let (method, is) = if steps > STIFF {
-        (Method::Radau5, "more")
+    let jacobian = jacobian_at_start(prepared)?;
+    let duration = options.t_end - prepared.start_time();
+    let steps = spectral_radius(&jacobian) * duration / STABLE;
+    let about = || rough(steps);
+    let (method, why) = if steps > STIFF {
+        let why = format!("needs about {} steps, more than {STIFF:.0e}", about());
+        (Method::Radau5, why)
+    } else if steps > STIFF_DECAY {
+        let others = rate_of_others(&jacobian).max(speed(prepared));
+        let gap = steps * STABLE / duration / others;
+        let least = GAP * (GAP_RTOL / options.rtol).powf(0.2);
+        let (method, is) = if gap > least {
+            (Method::Radau5, "more")
+        } else {
+            (Method::Dop853, "not more")
+        };
+        let why = format!(
+            "needs about {} steps, because of a motion that decays {} times as fast as others change, {is} than {} times",
+            about(),
+            rough(gap),
+            rough(least)
+        );
+        (method, why)
     } else {
-        (Method::Dop853, "not more")
+        let few = if steps < 1.0 {
+            "less than 1".to_owned()
+        } else {
+            format!("about {}", about())
+        };
+        let why = format!("needs {few} steps, not more than {STIFF_DECAY}");
+        (Method::Dop853, why)
     };
-    let why = format!(
-        "estimate at the start: for stability an explicit method needs {} steps, {is} than {STIFF:.0e}",
-        match steps {
-            few if few < 1.0 => "less than 1".to_owned(),
-            many => format!("about {many}", many = rough(many)),
-        }
-    );
+    let why = format!("estimate at the start: for stability an explicit method {why}");
     Ok(decided(method, why))
 }
 
@@ -76,14 +94,43 @@ fn decided(value: Method, reason: String) -> Decision<Method> {
     Decision::new(value, value.name(), reason)
 }
 
-/// Returns the largest |λ| (1/s) of all eigenvalues λ of the motion on independent coordinates at
-/// the start.
-fn fastest_rate(prepared: &PreparedMechanism) -> Result<f64, MotionFault> {
-    let mut motion = KeptRowMotion::new(prepared)?;
+/// Returns the Jacobian of the motion on independent coordinates at the start.
+fn jacobian_at_start(prepared: &PreparedMechanism) -> Result<Matrix, MotionFault> {
+    let options = MotionOptions {
+        method: Method::Radau5,
+        ..MotionOptions::to(prepared.start_time())
+    };
+    let mut motion = KeptRowMotion::with(prepared, &options)?;
     let mut reduced = ReducedJacobian::new(&motion);
     let y = [prepared.q.as_slice(), &prepared.v].concat();
     reduced.linearise(&mut motion, prepared.start_time(), &y)?;
-    Ok(spectral_radius(reduced.jacobian()))
+    Ok(reduced.jacobian().clone())
+}
+
+/// Returns the largest |λ| (1/s) of the eigenvalues λ that are no decays. For a decay, −Re λ is at
+/// least |λ|/2, so the motion ends within one oscillation. Returns infinity if the eigenvalues
+/// cannot be computed.
+fn rate_of_others(a: &Matrix) -> f64 {
+    let Some(pairs) = eigenpairs(a) else {
+        return f64::INFINITY;
+    };
+    let rate = |pair: &Eigenpair| {
+        let [re, im] = pair.value;
+        let rate = re.hypot(im);
+        (re > -0.5 * rate).then_some(rate)
+    };
+    pairs.iter().filter_map(rate).fold(0.0, f64::max)
+}
+
+/// Returns the rate (1/s) at which the configuration changes at the start. Translations are divided
+/// by the size of the mechanism.
+fn speed(prepared: &PreparedMechanism) -> f64 {
+    let space = prepared.mechanism.space();
+    let rate = |(j, v): (usize, &f64)| match space.is_rotation(j) {
+        true => v.abs(),
+        false => v.abs() / prepared.assembly.size,
+    };
+    prepared.v.iter().enumerate().map(rate).fold(0.0, f64::max)
 }
 
 /// Estimates the spectral radius. A vector is repeatedly multiplied by the matrix, and the growth
@@ -152,5 +199,20 @@ mod tests {
         let a = Matrix::from_rows(&[[-2e6, 1.0], [0.0, -3.0]]);
         assert!((spectral_radius(&a) / 2e6 - 1.0).abs() < 1e-6);
         assert_eq!(spectral_radius(&Matrix::zeros(3, 3)), 0.0);
+    }
+
+    /// ẍ = −k·x − d·ẋ has λ = (−d ± √(d² − 4·k))/2.
+    #[test]
+    fn decays_and_oscillations_are_distinguished() {
+        let k: f64 = 1e8;
+        let critical = 2.0 * k.sqrt();
+        for (damping, rate) in [(0.0, 1e4), (0.4, 1e4), (0.6, 0.0), (3.0, 0.0)] {
+            let a = Matrix::from_rows(&[[0.0, 1.0], [-k, -damping * critical]]);
+            let found = rate_of_others(&a);
+            assert!((found - rate).abs() < 1e-6, "{damping}: {found}");
+        }
+        // A growing motion does not decay.
+        let a = Matrix::from_rows(&[[-1e4, 1.0], [0.0, 3.0]]);
+        assert!((rate_of_others(&a) - 3.0).abs() < 1e-9);
     }
 }

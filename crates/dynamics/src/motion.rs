@@ -80,9 +80,9 @@ impl<'m> KeptRowMotion<'m> {
         options: &MotionOptions,
     ) -> Result<Self, MotionFault> {
         let at = Evaluation::new(&prepared.mechanism, prepared.assembly.size);
-        let of_c = prepared.decision.kept.len();
-        let velocity = KeptRows::new(&at, &prepared.decision, of_c)?;
-        let position = KeptRows::new(&at, &prepared.position_decision, of_c)?;
+        let needs = prepared.solver_needs(options.method);
+        let velocity = KeptRows::new(&at, &prepared.decision, needs)?;
+        let position = KeptRows::new(&at, &prepared.position_decision, needs)?;
         let horizon = options.t_end - prepared.start_time();
         let horizon = if horizon > 0.0 {
             horizon

@@ -18,10 +18,10 @@ use solvability::{
 
 use crate::code::SharedCode;
 use crate::error::{DropError, MotionError};
-use crate::limits::TAKES_PART;
+use crate::limits::{FREE_ESTIMATED, TAKES_PART};
 use crate::motion::KeptRowMotion;
-use crate::options::{MotionOptions, RowChoice, Stabilisation};
-use crate::solve::{self, Misfit};
+use crate::options::{Method, MotionOptions, RowChoice, Stabilisation};
+use crate::solve::{self, Misfit, SolverNeeds};
 
 /// A mechanism with a consistent start and independent rows.
 #[derive(Clone)]
@@ -65,19 +65,45 @@ impl PreparedMechanism {
         self.mechanism.layout().start_time
     }
 
-    /// Returns an estimated upper bound (bytes) on the memory of a run, without the mechanism
-    /// itself. The memory consists of solvers, stages and output rows. The estimate uses only
-    /// sparsity patterns.
+    /// Returns an estimated upper bound (bytes) on the memory of a run by this method, without the
+    /// mechanism itself. The memory consists of solvers, stages and output rows. The estimate uses
+    /// only sparsity patterns.
     #[must_use]
-    pub fn memory(&self) -> usize {
+    pub fn memory(&self, method: Method) -> usize {
         let levels = [&self.decision, &self.position_decision].map(|d| d.kept.as_slice());
-        solve::memory(&self.mechanism, self.assembly.size, levels)
+        let may_be_implicit = method == Method::Auto && self.estimates_stiffness();
+        let method = if may_be_implicit {
+            Method::Radau5
+        } else {
+            method
+        };
+        solve::memory(&self.mechanism, self.solver_needs(method), levels)
     }
 
-    /// Returns whether the independent rows are solved through the Schur complement of the masses.
-    pub(crate) fn is_schur(&self) -> bool {
-        let rows = self.decision.kept.len();
-        solve::is_schur(&self.mechanism, self.assembly.size, rows)
+    /// Returns the data that determine the solvers of a run by this method.
+    pub(crate) fn solver_needs(&self, method: Method) -> SolverNeeds {
+        SolverNeeds {
+            size: self.assembly.size,
+            rows: self.decision.kept.len(),
+            are_coordinates_independent: method.needs_independent_coordinates(),
+        }
+    }
+
+    /// Returns whether the independent rows are solved through the Schur complement of the masses
+    /// in a run by this method.
+    pub(crate) fn is_schur(&self, method: Method) -> bool {
+        self.solver_needs(method).is_schur(&self.mechanism)
+    }
+
+    /// Returns whether so few motions are free that their stiffness is estimated, if the caller
+    /// does not choose a method.
+    pub(crate) fn estimates_stiffness(&self) -> bool {
+        let free = self
+            .mechanism
+            .layout()
+            .n_v
+            .saturating_sub(self.decision.kept.len());
+        free <= FREE_ESTIMATED && !self.is_schur(Method::Radau5)
     }
 
     /// Returns whether the size is far from a metre, see [`solve::is_far`].
@@ -205,7 +231,7 @@ impl PreparedMechanism {
         }
         let found = self.decided.as_ref()?;
         let is_own = kept == self.decision.kept || self.choice == RowChoice::Automatic;
-        if !is_own || self.may_miss || self.is_schur() {
+        if !is_own || self.may_miss || self.is_schur(Method::Auto) {
             return None;
         }
         let layout = self.mechanism.layout();

@@ -18,7 +18,7 @@ pub(crate) use generated::{Doubt, GeneratedCode};
 pub use misfits::Misfit;
 pub(crate) use misfits::Misfits;
 pub(crate) use rows::KeptRows;
-pub(crate) use solver::{is_schur, memory};
+pub(crate) use solver::{SolverNeeds, memory};
 pub(crate) use units::{is_far, mass_spread};
 
 /// A time with coordinates and velocities.

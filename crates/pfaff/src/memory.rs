@@ -6,6 +6,7 @@ mod budget;
 #[cfg(target_os = "linux")]
 mod linux;
 
+use dynamics::Method;
 use solvability::memory_of_verdicts;
 
 use crate::assembled::AssembledScene;
@@ -74,8 +75,9 @@ impl Study {
     pub fn memory(&self, text: usize) -> Result<usize, StudyError> {
         let mechanism = &self.prepared.mechanism;
         let verdicts = memory_of_verdicts(mechanism, crate::threads())?;
+        let method = self.options.as_ref().map_or(Method::Auto, |o| o.method);
         let columns = OF_COLUMNS * mechanism.layout().groups.len();
-        let run = OF_RUN + columns + self.prepared.memory();
+        let run = OF_RUN + columns + self.prepared.memory(method);
         Ok(of_reading(text) + verdicts.most(run))
     }
 }

@@ -58,10 +58,11 @@ impl Decisions {
         let sizes = Sizes::of(prepared);
         let work = Work::of(&prepared.mechanism);
         let method = choose::method(prepared, options)?;
+        let is_schur = prepared.is_schur(method.value);
         Ok(Self {
             linear_systems: linear_systems(method.value, &sizes),
-            elimination: elimination_of(prepared, &sizes, &work),
-            refinement: refinement(prepared)?,
+            elimination: elimination_of(prepared, is_schur, &sizes, &work),
+            refinement: refinement(prepared, is_schur)?,
             mobility: mobility(prepared, options, &sizes, &work),
             nonholonomic: nonholonomic(&sizes),
             dropped: dropped(&sizes),
@@ -112,11 +113,12 @@ fn linear_systems(method: Method, sizes: &Sizes) -> Decision<bool> {
 
 fn elimination_of(
     prepared: &PreparedMechanism,
+    is_schur: bool,
     sizes: &Sizes,
     work: &Work,
 ) -> Decision<[usize; 2]> {
     let (rows, n, entries) = (sizes.rank, sizes.velocities, work.entries);
-    if prepared.is_schur() {
+    if is_schur {
         let reason = format!(
             "{INDEPENDENT_ROWS}, {entries} entries of C; many motions are free, and the order of elimination is chosen once"
         );
@@ -136,12 +138,12 @@ fn elimination_of(
     )
 }
 
-fn refinement(prepared: &PreparedMechanism) -> Result<Decision<bool>, MotionError> {
+fn refinement(prepared: &PreparedMechanism, is_schur: bool) -> Result<Decision<bool>, MotionError> {
     let decided = |value: bool, reason: String| {
         let taken = if value { "in double-double" } else { "none" };
         Ok(Decision::new(value, taken, reason))
     };
-    if prepared.is_schur() {
+    if is_schur {
         let why = "each solution by the Schur complement is checked against its rows and corrected";
         return decided(false, why.to_owned());
     }

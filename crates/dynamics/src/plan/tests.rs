@@ -2,6 +2,7 @@
 //! run separately move as they move alone.
 
 mod driven;
+mod stiff;
 mod watched;
 
 use std::ops::ControlFlow;
@@ -566,7 +567,7 @@ fn free_bodies_take_memory_in_proportion() {
             let bodies = (0..count).map(|k| body(&format!("b{k}"), [k as f64, 0.0]));
             d.bodies.extend(bodies);
         });
-        free.memory()
+        free.memory(Method::Auto)
     };
     let (few, many) = (of(400), of(4000));
     assert!(many < 11 * few, "{few} and {many} bytes");

@@ -10,7 +10,7 @@ use model::System;
 use solvability::{CARRIED_VECTORS, RowDecision};
 
 use super::evaluation::Evaluation;
-use super::solver::Solver;
+use super::solver::{Solver, SolverNeeds};
 use super::units::{ScaledVectors, is_far, mass_in_units, mass_of_positions, units};
 use crate::counts::{WorkKind, note};
 use crate::error::MotionFault;
@@ -31,8 +31,7 @@ pub(crate) struct KeptRows {
     scaled: ScaledVectors,
     /// The rows in these units, and their factors.
     solver: Solver,
-    /// Number of independent rows of C, which determines the solver.
-    of_c: usize,
+    needs: SolverNeeds,
     /// Whether the size of the mechanism is so far from a metre that solutions are refined.
     is_far: bool,
     /// Pivot ratio at the time when these rows were chosen. Later pivot ratios are compared with
@@ -50,15 +49,14 @@ pub(crate) struct KeptRows {
 struct PartitionPivot(Option<f64>);
 
 impl KeptRows {
-    /// Allocates memory for the rows of a decision, with the solver for `of_c` independent rows of
-    /// C. Both levels use the same kind of solver.
+    /// Allocates memory for the rows of a decision. Both levels use the same kind of solver.
     pub(crate) fn new(
         at: &Evaluation<'_>,
         rows: &RowDecision,
-        of_c: usize,
+        needs: SolverNeeds,
     ) -> Result<Self, MotionFault> {
         let units = units(at.mechanism, at.size);
-        let solver = Solver::new(at.mechanism, &rows.kept, (&units, at.size), of_c);
+        let solver = Solver::new(at.mechanism, &rows.kept, &units, needs);
         let layout = at.mechanism.layout();
         let mut level = rows.kept.iter().chain(&rows.dropped);
         let mass = if layout.rows() > layout.m && level.all(|&i| i < layout.m) {
@@ -76,7 +74,7 @@ impl KeptRows {
                 time: at.s.t,
                 source,
             })?,
-            of_c,
+            needs,
             scaled: ScaledVectors::new(units, mass, at.mechanism.inertia(&at.s).added().clone()),
             is_far: is_far(at.size),
             reference_pivot: None,
@@ -91,7 +89,7 @@ impl KeptRows {
         at: &Evaluation<'_>,
         rows: &RowDecision,
     ) -> Result<Self, MotionFault> {
-        Self::new(at, rows, self.of_c)
+        Self::new(at, rows, self.needs)
     }
 
     /// Factors the rows with the last evaluated entries of C. Rows that are dependent for an

@@ -69,37 +69,60 @@ macro_rules! either {
     };
 }
 
-/// Returns whether the independent rows of C and of Φq are solved through the Schur complement, for
-/// this number of independent rows of C and this size of the mechanism (m). Two cases require the
-/// Schur complement. In the first case, there are many rows and many free motions, every coordinate
-/// has a mass, and solutions need no refinement because of different masses. In the second case,
-/// rows and free motions are too many for the null space. If there are many free motions but no
-/// rows, there is no equation to eliminate.
-pub(crate) fn is_schur(mechanism: &Mechanism, size: f64, rows: usize) -> bool {
-    let free = mechanism.layout().n_v.saturating_sub(rows);
-    let is_free = || rows == 0 && free > FREE_DENSE && mechanism.mass().iter().all(|&m| m > 0.0);
-    free > FREE_MOST && (is_free() || allows_schur(mechanism, size, rows))
+/// The data of a motion that determine the kind of its solvers.
+#[derive(Clone, Copy)]
+pub(crate) struct SolverNeeds {
+    /// Size of the mechanism (m).
+    pub(crate) size: f64,
+    /// Number of independent rows of C.
+    pub(crate) rows: usize,
+    /// Whether the motion uses independent coordinates, which only the null space provides.
+    pub(crate) are_coordinates_independent: bool,
 }
 
-/// Returns whether the Schur complement is accurate enough for this number of rows of a mechanism
-/// of this size (m), and whether it justifies its memory.
-fn allows_schur(mechanism: &Mechanism, size: f64, rows: usize) -> bool {
-    let is_graded = || mass_spread(mechanism, size) >= GRADED_MASSES;
-    rows >= SCHUR_FROM
-        && mechanism.mass().iter().all(|&m| m > 0.0)
-        && (rows > REFINED_MOST || !is_graded())
+impl SolverNeeds {
+    /// Returns whether the independent rows of C and of Φq of a mechanism are solved through the
+    /// Schur complement. There are two cases. In the first case, there are many rows and many free
+    /// motions, every coordinate has a mass, and solutions need no refinement because of different
+    /// masses. In the second case, rows and free motions are too many for the null space. With
+    /// independent coordinates, only the second case requires the Schur complement. If there are
+    /// many free motions but no rows, there is no equation to eliminate.
+    pub(crate) fn is_schur(self, mechanism: &Mechanism) -> bool {
+        let free = mechanism.layout().n_v.saturating_sub(self.rows);
+        let most = match self.are_coordinates_independent {
+            true => FREE_DENSE,
+            false => FREE_MOST,
+        };
+        let has_masses = || mechanism.mass().iter().all(|&m| m > 0.0);
+        let is_free = || self.rows == 0 && free > FREE_DENSE && has_masses();
+        free > most && (is_free() || self.allows_schur(mechanism))
+    }
+
+    /// Returns whether the Schur complement is accurate enough, and whether it justifies its
+    /// memory.
+    fn allows_schur(self, mechanism: &Mechanism) -> bool {
+        let is_graded = || mass_spread(mechanism, self.size) >= GRADED_MASSES;
+        self.rows >= SCHUR_FROM
+            && mechanism.mass().iter().all(|&m| m > 0.0)
+            && (self.rows > REFINED_MOST || !is_graded())
+    }
+
+    /// Returns whether the Schur complement is prepared for instants at which many rows are
+    /// skipped.
+    fn has_many(self, mechanism: &Mechanism) -> bool {
+        !self.are_coordinates_independent && self.allows_schur(mechanism)
+    }
 }
 
 /// Returns an estimated upper bound (bytes) on the memory of a motion. The memory consists of
 /// solvers of the independent rows of C and of Φq, of stages, and of output rows.
-pub(crate) fn memory(mechanism: &Mechanism, size: f64, levels: [&[usize]; 2]) -> usize {
+pub(crate) fn memory(mechanism: &Mechanism, needs: SolverNeeds, levels: [&[usize]; 2]) -> usize {
     let layout = mechanism.layout();
     let of_level = |kept: &[usize]| {
         let c = pattern_of(mechanism, kept);
-        let rows = levels[0].len();
         let mut factors = 0;
-        let is_schur = is_schur(mechanism, size, rows);
-        if is_schur || allows_schur(mechanism, size, rows) {
+        let is_schur = needs.is_schur(mechanism);
+        if is_schur || needs.has_many(mechanism) {
             factors += structure(mechanism, &c).bytes();
         }
         if !is_schur {
@@ -122,12 +145,12 @@ impl Solver {
     pub(super) fn new(
         mechanism: &Mechanism,
         kept: &[usize],
-        (units, size): (&[f64], f64),
-        of_c: usize,
+        units: &[f64],
+        needs: SolverNeeds,
     ) -> Result<Self, SaddleError> {
         let rows = KeptMatrix::new(mechanism, kept, units);
         let (n, r) = (rows.c.ncols(), rows.c.nrows());
-        if is_schur(mechanism, size, of_c) {
+        if needs.is_schur(mechanism) {
             let saddle = SchurSaddle::new(structure(mechanism, &rows.c));
             let factors = Factors::Schur(Box::new(saddle));
             return Ok(Self { rows, factors });
@@ -139,7 +162,7 @@ impl Solver {
             return Err(SaddleError::ZeroMass { index, value });
         }
         let columns: Vec<Vec<usize>> = (0..r).map(|k| rows.c.row(k).0.to_vec()).collect();
-        let many = allows_schur(mechanism, size, of_c).then(|| {
+        let many = needs.has_many(mechanism).then(|| {
             Box::new(Many {
                 saddle: SchurSaddle::new(structure(mechanism, &rows.c)),
                 share: 0.0,
@@ -151,7 +174,7 @@ impl Solver {
         });
         let factors = Factors::NullSpace(Box::new(NullSpace {
             saddle: KeptRowSaddle::with_columns(n, &columns)?
-                .graded_by(mass_spread(mechanism, size)),
+                .graded_by(mass_spread(mechanism, needs.size)),
             refinement: Refinement::new(n, r),
             many,
         }));

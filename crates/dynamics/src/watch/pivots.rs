@@ -67,6 +67,7 @@ fn are_poor(rows: &mut KeptRows, at: &Evaluation<'_>) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::options::Method;
     use crate::prepare;
     use crate::solve::Evaluation;
     use joints::{Line, PointOnLine};
@@ -88,7 +89,8 @@ mod tests {
             let p = prepare(mechanism, &StartOptions::default(), &choice).expect("starts");
             let at = Evaluation::new(&p.mechanism, p.assembly.size);
             let [velocity, position] = [&p.decision, &p.position_decision]
-                .map(|rows| KeptRows::new(&at, rows, 2).expect("two rows"));
+                .map(|rows| KeptRows::new(&at, rows, p.solver_needs(Method::Auto)))
+                .map(|rows| rows.expect("two rows"));
             let mut equations = KeptEquations::new(at, velocity, position);
             equations.factor_at(0.0, &p.q).expect("independent rows");
             let found = want_exchange(&mut equations, &RowChoice::Automatic);

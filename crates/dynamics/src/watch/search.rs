@@ -294,7 +294,7 @@ mod tests {
     use model::{Body, Description, Mechanism, StartOptions};
 
     use super::*;
-    use crate::options::RowChoice;
+    use crate::options::{Method, RowChoice};
     use crate::{PreparedMechanism, prepare};
 
     /// A pivot falls to zero like a square root between two instants. Near zero its change is
@@ -341,7 +341,8 @@ mod tests {
         };
         let rows = |p: &PreparedMechanism, left_out: Option<&KeptRows>| {
             let mut at = Evaluation::new(&p.mechanism, p.assembly.size);
-            let mut rows = KeptRows::new(&at, &p.decision, 3).expect("three rows");
+            let mut rows =
+                KeptRows::new(&at, &p.decision, p.solver_needs(Method::Auto)).expect("three rows");
             at.pose(0.0, &p.q);
             if let Some(others) = left_out {
                 rows.compare_as(others);

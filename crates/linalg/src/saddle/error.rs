@@ -73,7 +73,7 @@ pub enum SaddleError {
     },
     /// Only the null-space solver supports this operation.
     #[error(
-        "{rows} rows with many free motions are solved through the Schur complement, without independent coordinates: use an explicit method on kept rows, with projection"
+        "{rows} rows with so many free motions are solved only through the Schur complement, without independent coordinates: use an explicit method on kept rows, with projection"
     )]
     Large {
         /// Number of rows.
