@@ -33,13 +33,13 @@ use crate::tree::root;
 // feature may increase a size limit, in a separate commit.
 
 /// Largest number of lines of code of all groups except tests and developers' tools.
-const TOTAL_MOST: usize = 162_830;
+const TOTAL_MOST: usize = 162_900;
 /// Largest number of lines of code of the product.
-const PRODUCT_MOST: usize = 125_560;
+const PRODUCT_MOST: usize = 125_640;
 /// Largest number of tokens of the product; with this limit, longer lines do not help.
-const TOKENS_MOST: usize = 1_197_000;
+const TOKENS_MOST: usize = 1_197_400;
 /// Largest number of lines of code of `dynamics`.
-const DYNAMICS_MOST: usize = 11_880;
+const DYNAMICS_MOST: usize = 11_970;
 /// Largest number of stateful types above the bounds.
 const STATEFUL_MOST: usize = 5;
 /// Largest number of modules in a circle.
