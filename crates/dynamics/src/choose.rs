@@ -126,9 +126,13 @@ fn rate_of_others(a: &Matrix) -> f64 {
 /// by the size of the mechanism.
 fn speed(prepared: &PreparedMechanism) -> f64 {
     let space = prepared.mechanism.space();
-    let rate = |(j, v): (usize, &f64)| match space.is_rotation(j) {
-        true => v.abs(),
-        false => v.abs() / prepared.assembly.size,
+    let rate = |(j, v): (usize, &f64)| {
+        let unit = if space.is_rotation(j) {
+            1.0
+        } else {
+            prepared.assembly.size
+        };
+        v.abs() / unit
     };
     prepared.v.iter().enumerate().map(rate).fold(0.0, f64::max)
 }

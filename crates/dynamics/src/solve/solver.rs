@@ -89,9 +89,10 @@ impl SolverNeeds {
     /// many free motions but no rows, there is no equation to eliminate.
     pub(crate) fn is_schur(self, mechanism: &Mechanism) -> bool {
         let free = mechanism.layout().n_v.saturating_sub(self.rows);
-        let most = match self.are_coordinates_independent {
-            true => FREE_DENSE,
-            false => FREE_MOST,
+        let most = if self.are_coordinates_independent {
+            FREE_DENSE
+        } else {
+            FREE_MOST
         };
         let has_masses = || mechanism.mass().iter().all(|&m| m > 0.0);
         let is_free = || self.rows == 0 && free > FREE_DENSE && has_masses();
