@@ -33,7 +33,7 @@ use crate::tree::root;
 // feature may increase a size limit, in a separate commit.
 
 /// Largest number of lines of code of all groups except tests and developers' tools.
-const TOTAL_MOST: usize = 162_900;
+const TOTAL_MOST: usize = 162_910;
 /// Largest number of lines of code of the product.
 const PRODUCT_MOST: usize = 125_640;
 /// Largest number of tokens of the product; with this limit, longer lines do not help.
