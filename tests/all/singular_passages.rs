@@ -211,8 +211,8 @@ fn size_and_place_do_not_matter() {
 }
 
 /// A lift whose rod is shorter than the distance to its dead centre. The crank turns back at
-/// `cos θ = (L − 0.15)/0.1`, close to the singular configuration θ = 0 of the rod of 0.25 m, and the
-/// table moves to the other side of the crankpin. Longer rods let the crank pass.
+/// `cos θ = (L − 0.15)/0.1`. This angle is close to the singular configuration θ = 0 of the rod of
+/// 0.25 m. The table moves to the other side of the crankpin. Longer rods let the crank pass.
 #[test]
 fn a_crank_that_turns_back_close_to_a_singular_configuration_continues() {
     let lift = |length: f64| {
