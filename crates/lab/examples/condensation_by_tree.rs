@@ -125,7 +125,7 @@
 //!
 //! - Lattices and long trains, which have few free motions: the null space is better. A wheel or a
 //!   knife edge whose parent is not the ground has a path through all bodies up to the ground. If
-//!   such bodies hang on the ground (`ground`), 64 carriages take 3004 instead of 8092
+//!   such bodies are joined to the ground (`ground`), 64 carriages take 3004 instead of 8092
 //!   instructions, but the null space takes 2794. 16 cars then take 6032 instead of 5281. With a
 //!   floating root (`floating`) they take 10 954, and 64 carriages 8180.
 //! - Mechanisms with one free motion save at most 25 % of the instructions, except for single
@@ -146,7 +146,7 @@
 //! 1. `linalg`: the condensation without its solver, with const generics for planes and space, and
 //!    a plan from kept rows, groups of columns and parents. Only one joint has to be planned again.
 //! 2. `prepare`: independent rows that prefer the joints of a tree.
-//! 3. `solver.rs`: a solver beside the present ones, used by stages of explicit methods for motions
+//! 3. `solver.rs`: an additional solver, used by stages of explicit methods for motions
 //!    and multipliers of all rows. It requires positive masses that are not graded, all rows in use
 //!    at the last accepted step, and k ≥ 3 or armatures or only blocks. The null space, or the
 //!    Schur complement, is factored at the ends of steps: for pivots, skipped rows, orientation,
@@ -1123,7 +1123,8 @@ impl<const N: usize> Condensation<N> {
                 let slot = slot_of.get(&(node, index));
                 closing.push(ClosingEntry {
                     value: (start + at) as u32,
-                    slot: *slot.ok_or("a closing row touches a body beside its paths")? as u32,
+                    slot: *slot.ok_or("a closing row touches a body that is not on its paths")?
+                        as u32,
                     link: index as u32,
                     node: node as u32,
                     column: local[node][column % N] as u8,
@@ -1894,7 +1895,7 @@ fn example(name: &str) -> Outcome<PreparedMechanism> {
     read(name, &std::fs::read_to_string(path)?)
 }
 
-/// The scenes of `check` beside the catalogue, and the scenes of `count`.
+/// The scenes of `check` in addition to the catalogue, and the scenes of `count`.
 const SCENES: &[&str] = &[
     "arms",
     "arms without armatures",
