@@ -49,7 +49,7 @@ pub(crate) fn method(
         return explicit(&why);
     }
     if !prepared.estimates_stiffness() {
-        return explicit("stiffness was not estimated, because many motions are free");
+        return explicit("stiffness was not estimated: a large mechanism with many free motions");
     }
     if options.stabilisation != Stabilisation::Projection {
         return explicit("implicit methods need projection");

@@ -34,11 +34,12 @@ pub(crate) const FREE_MOST: usize = 16;
 /// large dense matrices. Test: `free_bodies_take_memory_in_proportion`.
 pub(crate) const FREE_DENSE: usize = 1024;
 
-/// If the user does not choose a method, the stiffness of a mechanism with at most this number of
-/// degrees of freedom is estimated. Unit: motions. Too small: stiff robots are computed with the
-/// short steps of an explicit method. Too large: the estimate takes longer than a run. Test:
-/// `stiff_chains_are_implicit_with_many_free_motions`.
-pub(crate) const FREE_ESTIMATED: usize = 128;
+/// If the user does not choose a method, the stiffness of a mechanism with many free motions is
+/// estimated up to this number of velocities. Unit: velocities. Too small: stiff robots are
+/// computed with the short steps of an explicit method. Too large: the choice of independent
+/// coordinates takes longer than a run, because its work grows with the cube of the velocities.
+/// Test: `stiff_chains_are_implicit_with_many_free_motions`.
+pub(crate) const ESTIMATED_MOST: usize = 600;
 
 /// Number of independent rows from which the coefficients of two random sums of redundant rows are
 /// computed instead of those of each redundant row. Unit: rows. Too small: large coefficients may

@@ -18,7 +18,7 @@ use solvability::{
 
 use crate::code::SharedCode;
 use crate::error::{DropError, MotionError};
-use crate::limits::{FREE_ESTIMATED, TAKES_PART};
+use crate::limits::{ESTIMATED_MOST, TAKES_PART};
 use crate::motion::KeptRowMotion;
 use crate::options::{Method, MotionOptions, RowChoice, Stabilisation};
 use crate::solve::{self, Misfit, SolverNeeds};
@@ -95,15 +95,10 @@ impl PreparedMechanism {
         self.solver_needs(method).is_schur(&self.mechanism)
     }
 
-    /// Returns whether so few motions are free that their stiffness is estimated, if the caller
-    /// does not choose a method.
+    /// Returns whether stiffness is estimated if the caller does not choose a method. Stiffness is
+    /// not estimated for large mechanisms with many free motions.
     pub(crate) fn estimates_stiffness(&self) -> bool {
-        let free = self
-            .mechanism
-            .layout()
-            .n_v
-            .saturating_sub(self.decision.kept.len());
-        free <= FREE_ESTIMATED && !self.is_schur(Method::Radau5)
+        self.mechanism.layout().n_v <= ESTIMATED_MOST || !self.is_schur(Method::Dop853)
     }
 
     /// Returns whether the size is far from a metre, see [`solve::is_far`].

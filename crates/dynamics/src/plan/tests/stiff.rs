@@ -63,7 +63,7 @@ fn fast_decays_are_stiff_and_oscillations_are_not() {
 }
 
 /// Strong dampers make 40 links one rod, whose small oscillations about an end have the frequency
-/// √(3·g/(2·L)). More free motions than the estimate permits are computed explicitly.
+/// √(3·g/(2·L)). Longer chains than the estimate permits are computed explicitly.
 #[test]
 fn stiff_chains_are_implicit_with_many_free_motions() {
     let (length, first): (f64, f64) = (0.05, 1e-3);
@@ -98,9 +98,9 @@ fn stiff_chains_are_implicit_with_many_free_motions() {
             );
         }
     }
-    let (method, why) = method_of(&chain(129), &options);
+    let (method, why) = method_of(&chain(201), &options);
     assert_eq!(method, Method::Dop853, "{why}");
-    assert!(why.contains("many motions are free"), "{why}");
+    assert!(why.contains("many free motions"), "{why}");
 }
 
 /// Implicit methods are refused where their matrices would be too large.
